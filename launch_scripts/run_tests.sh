@@ -101,6 +101,22 @@ run() {
   done < <(cat "build/$preset/Testing/Temporary/LastTestsFailed.log" 2>/dev/null)
 }
 
+# Runs in memory under faults: always the same ones, two minutes on 2 cores. With the whole test run, at the lowest
+# priority.
+campaign=""
+campaign_log=build/release/Testing/fault_simulator.log
+begin_campaign() {
+  [[ $preset == release && -z $folder && -z $filter ]] && ! $unit || return 0
+  nice -n 19 build/release/bin/fault_simulator --cars 0 --seed 1 --runs 4500 >"$campaign_log" 2>&1 &
+  campaign=$!
+}
+end_campaign() {
+  [[ -n $campaign ]] || return 0
+  echo "Runs with faults (build/release/bin/fault_simulator)"
+  wait "$campaign" || { code=1 failed+=("fault_simulator: see above, with the command that repeats it"); }
+  cat "$campaign_log"
+}
+
 setup=()
 [[ ${presets[0]} != coverage ]] || setup=(--coverage)
 ./launch_scripts/setup.sh "${setup[@]}" || exit 1
@@ -117,7 +133,9 @@ for ((i = 0; i < ${#presets[@]}; i++)); do
   [[ $preset != coverage ]] || find build/coverage -name '*.gcda' -delete # counts of an earlier run
   echo "Testing ($what)"
   run -LE '^real_time$'
-  # While cars drive in real time the machine is mostly idle: meanwhile build the next preset at low priority.
+  # While cars drive in real time the machine is mostly idle: meanwhile simulate faults, and build the next preset at
+  # low priority.
+  begin_campaign
   next=""
   if has_tests -L '^real_time$' && ((i + 1 < ${#presets[@]})); then
     (choose "${presets[i + 1]}" && exec nice -n 19 ./launch_scripts/build.sh "${build[@]}") >/dev/null 2>&1 &
@@ -130,6 +148,7 @@ for ((i = 0; i < ${#presets[@]}; i++)); do
   fi
   [[ -z $next ]] || wait "$next" # its own turn reports a failure
 done
+end_campaign
 [[ ${presets[0]} != coverage ]] || ./tests/house/coverage.sh "$folder" || exit 1
 ((${#failed[@]} == 0)) || printf 'failed: %s\n' "${failed[@]}" >&2
 exit "$code"

@@ -1,4 +1,6 @@
 // Requests another subgraph from running controllers and prints their answers.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -242,16 +244,14 @@ class Asker {
       }
     }
     if (found && !asked_.empty()) return true;
-    std::string missing;
+    std::vector<std::string> missing;
     for (const int id : asked_) {
-      if (!is_matched(id)) {
-        missing +=
-            (missing.empty() ? "" : ", ") + hlc::controller_name(static_cast<std::uint8_t>(id));
-      }
+      if (!is_matched(id)) missing.push_back(hlc::controller_name(static_cast<std::uint8_t>(id)));
     }
-    std::cerr << "automaton_request: missing on domain " << participant_.options().domain_id << ": "
-              << (missing.empty() ? "any controller" : missing)
-              << " (see --dds_domain and --transport)\n";
+    if (missing.empty()) missing.emplace_back("any controller");
+    std::cerr << fmt::format(
+        "automaton_request: missing on domain {}: {} (see --dds_domain and --transport)\n",
+        participant_.options().domain_id, fmt::join(missing, ", "));
     return false;
   }
 
@@ -278,11 +278,12 @@ class Asker {
     for (const hlc::AutomatonAnswer& answer : answers) {
       if (answer.id != id_) continue;  // to another request
       outcomes_[answer.vehicle.value] = answer.outcome;
-      std::cout << "vehicle " << int{answer.vehicle.value} << ": " << word_for(answer.outcome)
-                << (answer.outcome == hlc::RequestOutcome::kInForce
-                        ? " from step " + std::to_string(answer.step.value)
-                        : "")
-                << ": " << answer.text << std::endl;
+      const std::string from = answer.outcome == hlc::RequestOutcome::kInForce
+                                   ? fmt::format(" from step {}", answer.step.value)
+                                   : "";
+      std::cout << fmt::format("vehicle {}: {}{}: {}", answer.vehicle.value,
+                               word_for(answer.outcome), from, answer.text)
+                << std::endl;
     }
   }
 
@@ -294,18 +295,19 @@ class Asker {
   }
 
   [[nodiscard]] int exit_code() const {
-    std::string silent;
+    std::vector<int> silent;
     bool is_refused = false;
     for (const int id : asked_) {
       const auto found = outcomes_.find(id);
       if (found == outcomes_.end() || found->second == hlc::RequestOutcome::kAccepted) {
-        silent += (silent.empty() ? "" : ", ") + std::to_string(id);
+        silent.push_back(id);
       } else {
         is_refused = is_refused || found->second != hlc::RequestOutcome::kInForce;
       }
     }
     if (!silent.empty()) {
-      std::cerr << "automaton_request: no final answer from vehicles " << silent << '\n';
+      std::cerr << fmt::format("automaton_request: no final answer from vehicles {}\n",
+                               fmt::join(silent, ", "));
       return hlc::kExitMissing;
     }
     return is_refused ? kExitRefused : hlc::kExitGood;

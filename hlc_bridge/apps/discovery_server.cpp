@@ -2,6 +2,7 @@
 // centre runs one. Debian's own (fast-discovery-server 2.9.1) crashes on the lab's types, which it
 // does not know.
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -32,7 +33,7 @@ void declare(CLI::App& app, Flags& flags) {
                  "IPv4 address of this machine at which the others reach it")
       ->required();
   app.add_option("--discovery_server_port", flags.port, "port")->capture_default_str();
-  app.add_option("--transport", flags.transport, "lab or loopback")->capture_default_str();
+  hlc::apps::declare_transport(app, flags.transport);
   app.footer(
       "Runs until it is stopped. The others find each other through it with "
       "--discovery_mode=client and the same --discovery_server_... flags. "
@@ -55,8 +56,8 @@ void check_can_listen(const std::string& ip, std::uint16_t port) {
     throw std::invalid_argument("--discovery_server_ip: " + ip +
                                 ", must be an address of this machine");
   }
-  throw std::invalid_argument("--discovery_server_port: " + std::to_string(port) +
-                              ", must be free on this machine");
+  throw std::invalid_argument(
+      fmt::format("--discovery_server_port: {}, must be free on this machine", port));
 }
 
 /// Serves until it is stopped.

@@ -1,5 +1,7 @@
 // Writes a run folder as a CommonRoad 2020a file: map, planning problems, planned and driven motion
 // every 10 ms.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -32,12 +34,12 @@ hlc::record::ExportedVehicle exported(hlc::VehicleId id,
   for (const hlc::result::StepRecord& row : rows) {
     if (row.record.report.vehicle == id) own.push_back(&row);
   }
-  const std::string name = "vehicle " + std::to_string(id.value);
+  const std::string name = fmt::format("vehicle {}", id.value);
   if (own.size() < 2) throw std::runtime_error(name + ": fewer than two steps were reported");
   const bool is_whole = facts.exit_code == 0;
   if (is_whole && own.size() < facts.steps) {
-    throw std::runtime_error("reports.csv: " + std::to_string(own.size()) + " steps of " + name +
-                             ", must be the " + std::to_string(facts.steps) + " of run.json");
+    throw std::runtime_error(fmt::format("reports.csv: {} steps of {}, must be the {} of run.json",
+                                         own.size(), name, facts.steps));
   }
   hlc::record::ExportedVehicle vehicle{
       .id = id,
@@ -50,10 +52,10 @@ hlc::record::ExportedVehicle exported(hlc::VehicleId id,
   if (vehicle.driven.size() < 2) throw std::runtime_error(name + ": drove less than a step");
   const std::size_t per_step = facts.period / kInterval;
   if (is_whole && vehicle.driven.size() + per_step < vehicle.planned.size()) {
-    throw std::runtime_error(
-        name + ": the record of what it drove ends " +
-        std::to_string((vehicle.planned.size() - vehicle.driven.size()) / per_step) +
-        " steps before its plan; the run must be complete");
+    throw std::runtime_error(fmt::format(
+        "{}: the record of what it drove ends {} steps before its plan; the run must be "
+        "complete",
+        name, (vehicle.planned.size() - vehicle.driven.size()) / per_step));
   }
   return vehicle;
 }
@@ -64,8 +66,8 @@ std::string export_run(const std::filesystem::path& run,
   const std::vector<hlc::ReportRecord> reports = hlc::record::read_reports(run / "reports.csv");
   if (!facts.first_step) throw std::runtime_error("run.json: first_step is null: no vehicle drove");
   if (facts.period == 0 || facts.period % kInterval != 0) {
-    throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
-                             ", must be a multiple of " + std::to_string(kInterval));
+    throw std::runtime_error(
+        fmt::format("run.json: period_ns = {}, must be a multiple of {}", facts.period, kInterval));
   }
   const hlc::scenario::Scenario scenario =
       hlc::scenario::read_scenario(choices.file.empty() ? hlc::record::kept_choices(run) : choices);

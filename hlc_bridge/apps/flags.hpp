@@ -28,6 +28,12 @@ inline void declare_controller_peers(CLI::App& app, std::vector<std::string>& pe
       ->delimiter(',');
 }
 
+inline void declare_transport(CLI::App& app, std::string& transport) {
+  app.add_option("--transport", transport)
+      ->check(among({"lab", "loopback"}))
+      ->capture_default_str();
+}
+
 struct NetworkFlags {
   bool simulated_time{false};
   int dds_domain{0};
@@ -51,8 +57,8 @@ struct NetworkFlags {
   /// The flags that do not concern a run.
   void declare_network(CLI::App& app) {
     app.add_option("--dds_domain", dds_domain, "lab domain")->capture_default_str();
-    app.add_option("--transport", transport, "lab or loopback")->capture_default_str();
-    app.add_option("--discovery_mode", discovery_mode, "simple or client");
+    declare_transport(app, transport);
+    app.add_option("--discovery_mode", discovery_mode)->check(among({"simple", "client"}));
     app.add_option("--discovery_server_id", discovery_server_id,
                    std::string("GUID prefix; default, as in the lab: ") + kDiscoveryServerId);
     app.add_option("--discovery_server_ip", discovery_server_ip, "IPv4 address");

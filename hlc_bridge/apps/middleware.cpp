@@ -1,6 +1,7 @@
 // The middleware of one vehicle's controller, or of several. Flags as in the lab.
 #include "hlc_bridge/process/middleware_process.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <memory>
@@ -78,8 +79,8 @@ hlc::process::MiddlewareOptions process_options(const Flags& flags) {
     throw std::invalid_argument("--keep_running needs --simulated_time=false");
   }
   if (is_logical && options.offset != hlc::kListOffset) {
-    throw std::invalid_argument("--offset_nanoseconds = " + std::to_string(options.offset) +
-                                ", must be 1 in logical time");
+    throw std::invalid_argument(
+        fmt::format("--offset_nanoseconds = {}, must be 1 in logical time", options.offset));
   }
   return options;
 }

@@ -1,5 +1,7 @@
 #include "hlc_bridge/dds/endpoint_qos.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -169,8 +171,8 @@ TopicQos topic_qos(TopicId id, DomainRole role, Transport transport) {
   if (own != kOwnTable.end() && role == DomainRole::kController) {
     return {own_endpoint(*own, transport), own_endpoint(*own, transport)};
   }
-  throw std::invalid_argument("topic " + std::to_string(static_cast<int>(id)) +
-                              " does not belong on the " + name(role) + " domain");
+  throw std::invalid_argument(
+      fmt::format("topic {} does not belong on the {} domain", static_cast<int>(id), name(role)));
 }
 
 }  // namespace hlc::dds

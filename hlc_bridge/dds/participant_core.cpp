@@ -1,5 +1,7 @@
 #include "hlc_bridge/dds/participant_core.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -18,8 +20,8 @@ ParticipantKey key_of(const frtps::GuidPrefix_t& prefix) {
 }
 
 [[noreturn]] void refuse(const ParticipantOptions& options, const std::string& what) {
-  throw std::runtime_error("participant " + options.name + " on domain " +
-                           std::to_string(options.domain_id) + ": " + what);
+  throw std::runtime_error(
+      fmt::format("participant {} on domain {}: {}", options.name, options.domain_id, what));
 }
 
 }  // namespace
@@ -29,8 +31,8 @@ ParticipantCore::ParticipantCore(const ParticipantOptions& options,
     : options_{options}, on_presence_change_{std::move(on_presence_change)} {
   check_domain_id("domain of participant " + options_.name, options_.domain_id);
   if (options_.name.empty() || options_.name.size() > kMaxParticipantName) {
-    throw std::invalid_argument("participant name \"" + options_.name + "\" must have 1 ... " +
-                                std::to_string(kMaxParticipantName) + " characters");
+    throw std::invalid_argument(fmt::format("participant name \"{}\" must have 1 ... {} characters",
+                                            options_.name, kMaxParticipantName));
   }
   const fdds::DomainParticipantQos qos = participant_qos(options_);
   set_up_library();

@@ -1,10 +1,12 @@
 #include "hlc_bridge/dds/topics.hpp"
 
+#include <fmt/format.h>
+
 namespace hlc::dds::topics {
 namespace {
 
 std::string of_vehicle(std::uint8_t vehicle_id, const char* name) {
-  return "vehicle/" + std::to_string(vehicle_id) + "/" + name;
+  return fmt::format("vehicle/{}/{}", vehicle_id, name);
 }
 
 template <class Command>

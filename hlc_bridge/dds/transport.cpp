@@ -1,6 +1,7 @@
 #include "hlc_bridge/dds/transport.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <regex>
@@ -9,37 +10,30 @@
 namespace hlc::dds {
 namespace {
 
-std::string quoted(const std::string& text) { return "\"" + text + "\""; }
-
-[[noreturn]] void refuse(const std::string& flag, const std::string& value,
-                         const std::string& allowed) {
-  throw std::invalid_argument(flag + ": " + value + ", must be " + allowed);
+/// @param what  value and bound
+[[noreturn]] void refuse(const std::string& flag, const std::string& what) {
+  throw std::invalid_argument(flag + ": " + what);
 }
 
 void refuse_equal(const char* first_flag, const std::optional<int>& first, const char* second_flag,
                   const std::optional<int>& second) {
   if (first && second && *first == *second) {
-    refuse(second_flag, std::to_string(*second),
-           std::string{"different from "} + first_flag + " " + std::to_string(*first));
+    refuse(second_flag,
+           fmt::format("{}, must be different from {} {}", *second, first_flag, *first));
   }
 }
 
 }  // namespace
 
 Transport transport_from_name(const std::string& name) {
-  if (name == "loopback") {
-    return Transport::kLoopback;
-  }
-  if (name == "lab") {
-    return Transport::kLab;
-  }
-  refuse("--transport", quoted(name), "lab or loopback");
+  if (name == "loopback") return Transport::kLoopback;
+  if (name == "lab") return Transport::kLab;
+  refuse("--transport", fmt::format("\"{}\", must be lab or loopback", name));
 }
 
 void check_domain_id(const std::string& flag, int id) {
   if (id < kMinDomainId || id > kMaxDomainId) {
-    refuse(flag, std::to_string(id),
-           "in " + std::to_string(kMinDomainId) + " ... " + std::to_string(kMaxDomainId));
+    refuse(flag, fmt::format("{}, must be in {} ... {}", id, kMinDomainId, kMaxDomainId));
   }
 }
 
@@ -56,8 +50,10 @@ std::vector<std::string> check_domains(const Domains& domains, Transport transpo
   refuse_equal("--dds_domain", domains.lab, "--controller_domain", domains.controller);
   refuse_equal("--middleware_domain", domains.local, "--controller_domain", domains.controller);
   if (transport == Transport::kLab && domains.lab && domains.lab == domains.local) {
-    return {"--middleware_domain: " + std::to_string(*domains.local) +
-            " is also --dds_domain; this works only because they use different transports"};
+    return {
+        fmt::format("--middleware_domain: {} is also --dds_domain; this works only because they "
+                    "use different transports",
+                    *domains.local)};
   }
   refuse_equal("--dds_domain", domains.lab, "--middleware_domain", domains.local);
   return {};
@@ -67,8 +63,8 @@ int default_controller_domain(int lab_domain) {
   check_domain_id("--dds_domain", lab_domain);
   const int domain = lab_domain + 50;
   if (domain > 100) {
-    refuse("--controller_domain", "the default --dds_domain + 50 = " + std::to_string(domain),
-           "<= 100, or given");
+    refuse("--controller_domain",
+           fmt::format("the default --dds_domain + 50 = {}, must be <= 100, or given", domain));
   }
   return domain;
 }
@@ -77,7 +73,7 @@ void check_addresses(const std::string& flag, const std::vector<std::string>& ad
   for (const std::string& address : addresses) {
     in_addr parsed{};
     if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
-      refuse(flag, quoted(address), "an IPv4 address");
+      refuse(flag, fmt::format("\"{}\", must be an IPv4 address", address));
     }
   }
 }
@@ -86,26 +82,25 @@ std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
                                                     const std::string& server_id,
                                                     const std::string& server_ip,
                                                     const std::string& server_port) {
-  if (mode != "" && mode != "simple" && mode != "client") {
-    refuse("--discovery_mode", quoted(mode), "simple or client");
-  }
   if (mode != "client") {
     if (mode.empty() && !(server_id + server_ip + server_port).empty()) {
-      refuse("--discovery_mode", quoted(mode), "client with a discovery server");
+      refuse("--discovery_mode",
+             fmt::format("\"{}\", must be client with a discovery server", mode));
     }
     return std::nullopt;
   }
   static const std::regex kPrefix{"[0-9a-fA-F]{2}(\\.[0-9a-fA-F]{2}){11}"};
   if (!std::regex_match(server_id, kPrefix)) {
-    refuse("--discovery_server_id", quoted(server_id),
-           "12 bytes in hexadecimal with dots between them");
+    refuse(
+        "--discovery_server_id",
+        fmt::format("\"{}\", must be 12 bytes in hexadecimal with dots between them", server_id));
   }
   check_addresses("--discovery_server_ip", {server_ip});
   DiscoveryServer server{server_id, server_ip, 0};
   const char* const end = server_port.data() + server_port.size();
   const auto [parsed_end, error] = std::from_chars(server_port.data(), end, server.port);
   if (error != std::errc{} || parsed_end != end || server.port == 0) {
-    refuse("--discovery_server_port", quoted(server_port), "in 1 ... 65535");
+    refuse("--discovery_server_port", fmt::format("\"{}\", must be in 1 ... 65535", server_port));
   }
   return server;
 }

@@ -56,8 +56,9 @@ struct DiscoveryServer {
 
 /// The lab's flags --discovery_mode, --discovery_server_id, --discovery_server_ip,
 /// --discovery_server_port as given ("" if not). Nothing if none is given or the mode is "simple";
-/// throws std::invalid_argument naming the flag if the mode is neither "simple" nor "client", or if
-/// something is missing or malformed.
+/// throws std::invalid_argument naming the flag if the mode is "client" and something is missing or
+/// malformed, or if the mode is missing.
+/// @pre the mode is "", "simple" or "client"
 [[nodiscard]] std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
                                                                   const std::string& server_id,
                                                                   const std::string& server_ip,

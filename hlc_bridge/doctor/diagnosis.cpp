@@ -1,7 +1,8 @@
 #include "hlc_bridge/doctor/diagnosis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 
 #include "hlc_bridge/messages/node_names.hpp"
@@ -16,14 +17,8 @@ constexpr double kFewestStates_hz = 25.0;  // of 50 Hz: half of them lost
 constexpr std::int64_t kClockAhead_ns = 5'000'000;
 constexpr std::int64_t kClockBehind_ns = 100'000'000;
 
-std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value);
-  return text;
-}
-
 std::string milliseconds(std::int64_t ns) {
-  return rounded(1e-6 * static_cast<double>(ns)) + " ms";
+  return fmt::format("{:.1f} ms", 1e-6 * static_cast<double>(ns));
 }
 
 Finding of_lab_control(const Received& received) {
@@ -33,12 +28,12 @@ Finding of_lab_control(const Received& received) {
             "--transport"};
   }
   const std::string period =
-      received.period_ms ? ", period " + std::to_string(*received.period_ms) + " ms" : "";
+      received.period_ms ? fmt::format(", period {} ms", *received.period_ms) : "";
   return {Verdict::kGood, "lab control: answers" + period, ""};
 }
 
 Finding of_vehicle(int id, const Received& received) {
-  const std::string name = "vehicle " + std::to_string(id) + ": ";
+  const std::string name = fmt::format("vehicle {}: ", id);
   const auto found = received.vehicles.find(static_cast<std::uint8_t>(id));
   if (found == received.vehicles.end()) {
     return {Verdict::kBad, name + "no state",
@@ -47,7 +42,7 @@ Finding of_vehicle(int id, const Received& received) {
   }
   const ReceivedVehicle& vehicle = found->second;
   const double rate_hz = static_cast<double>(vehicle.states) / received.listened_s.count();
-  const std::string states = rounded(rate_hz) + " states per second";
+  const std::string states = fmt::format("{:.1f} states per second", rate_hz);
   if (!vehicle.is_located) {
     return {Verdict::kBad,
             name + "the cameras have not seen it for more than " +
@@ -87,7 +82,7 @@ Finding of_controller(int id, const Received& received) {
 
 Finding of_middleware(const Received& received) {
   if (received.lists > 0) {
-    return {Verdict::kGood, "middleware: " + std::to_string(received.lists) + " state lists", ""};
+    return {Verdict::kGood, fmt::format("middleware: {} state lists", received.lists), ""};
   }
   return {Verdict::kBad, "middleware: no state list",
           "start it on this machine with the same --middleware_domain (with --transport=lab both "
@@ -123,7 +118,7 @@ std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Receive
   for (const int id : vehicle_ids) findings.push_back(of_vehicle(id, received));
   for (const auto& [id, vehicle] : received.vehicles) {
     if (std::ranges::find(vehicle_ids, static_cast<int>(id)) != vehicle_ids.end()) continue;
-    findings.push_back({Verdict::kNote, "vehicle " + std::to_string(id) + ": also present",
+    findings.push_back({Verdict::kNote, fmt::format("vehicle {}: also present", id),
                         "if it takes no part, the others do not keep clear of it"});
   }
   if (received.listened_to_middleware) findings.push_back(of_middleware(received));

@@ -1,5 +1,7 @@
 #include "hlc_bridge/doctor/shared_memory.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -70,12 +72,11 @@ Finding leftovers(const std::vector<SharedMemoryFile>& files) {
   }
   if (count == 0) {
     return {Verdict::kGood,
-            "shared memory: nothing left over (" + std::to_string(files.size()) + " files in use)",
-            ""};
+            fmt::format("shared memory: nothing left over ({} files in use)", files.size()), ""};
   }
   return {Verdict::kNote,
-          "shared memory: " + std::to_string(count) + " unused files in /dev/shm, " +
-              std::to_string(static_cast<int>(bytes / 1e6)) + " MB, such as " + example->name,
+          fmt::format("shared memory: {} unused files in /dev/shm, {} MB, such as {}", count,
+                      static_cast<int>(bytes / 1e6), example->name),
           "remove them when no program of the lab runs: rm /dev/shm/*fastrtps_* "
           "/dev/shm/fast_datasharing_*"};
 }

@@ -1,5 +1,7 @@
 #include "hlc_bridge/hlc/control_step.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "hlc_bridge/hlc/observation.hpp"
@@ -17,7 +19,7 @@ void ControlStep::begin(const VehicleStateList& list, const controller::Observat
                         const Instant& now, HlcActions& actions) {
   list_ = {.t_now = list.t_now, .period_ms = list.period_ms};
   record_ = {};
-  is_warm_ = false;
+  is_warm_ = !warms_up_;
   phase_ends_ = now.wall + kMessageTimeout;
   num_awaited_ = 0;
   actions.add(*loop_.begin(observation).traffic);
@@ -59,8 +61,9 @@ bool ControlStep::ends_phase(const Instant& now, const IsReachable& is_reachable
   if (deadlines_) return now.run >= deadline();
   if (now.wall < phase_ends_) return false;
   for (const VehicleId vehicle : awaited) {
-    actions.warn(controller_name(vehicle.value) + ": no message for " +
-                 std::to_string(kMessageTimeout / kNanosecondsPerSecond) + " s; no longer waiting");
+    actions.warn(fmt::format("{}: no message for {} s; no longer waiting",
+                             controller_name(vehicle.value),
+                             kMessageTimeout / kNanosecondsPerSecond));
     silent_.insert(vehicle);
   }
   return true;

@@ -22,9 +22,11 @@ class ControlStep {
   /// Whether messages of this vehicle's controller can arrive.
   using IsReachable = std::function<bool(VehicleId)>;
 
-  ControlStep(controller::Controller& controller, const std::optional<StepDeadlines>& deadlines,
+  ControlStep(controller::Controller& controller, const HlcRules& rules,
               controller::Stopwatch stopwatch)
-      : loop_(controller, std::move(stopwatch)), deadlines_(deadlines) {}
+      : loop_(controller, std::move(stopwatch)),
+        deadlines_(rules.deadlines),
+        warms_up_(rules.warms_up) {}
 
   void receive(const coordination::Traffic& message);
   void receive(const coordination::Prediction& message) { loop_.receive(message); }
@@ -63,6 +65,7 @@ class ControlStep {
   controller::ControlLoop loop_;
   std::optional<StepDeadlines> deadlines_;
   VehicleStateList list_;  ///< of the step; only its times
+  bool warms_up_;
   bool is_warm_{};
   Nanoseconds phase_ends_{};  ///< without deadlines; wall
   std::size_t num_awaited_{};

@@ -1,5 +1,7 @@
 #include "hlc_bridge/hlc/hlc_core.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,8 +20,8 @@ std::string HlcCore::validate(const VehicleStateList& list) const {
   const bool fits =
       list.period_ms > 0 && std::abs(1e-3 * static_cast<double>(list.period_ms) - step_s) <= 1e-9;
   if (fits) return {};
-  return "middleware period = " + std::to_string(list.period_ms) +
-         " ms, must be the automaton's step of " + shortest_text(step_s) + " s";
+  return fmt::format("middleware period = {} ms, must be the automaton's step of {} s",
+                     list.period_ms, shortest_text(step_s));
 }
 
 std::optional<controller::Observation> HlcCore::observe(const VehicleStateList& list) {

@@ -41,7 +41,7 @@ HlcMachine::HlcMachine(const HlcSettings& settings,
       core_(std::move(controller)),
       life_(core_.controller().options().vehicle, rules_, settings.startup_timeout),
       start_(core_.controller().options().vehicle, rules_.start, step_ns(core_.controller())),
-      step_(core_.controller(), rules_.deadlines, cpu_time_),
+      step_(core_.controller(), rules_, cpu_time_),
       copies_(rules_.copy),
       subgraphs_(core_.controller(), settings.reconfiguration) {
   check_plan_fits_commands(core_.controller());
@@ -232,7 +232,7 @@ void HlcMachine::finish(ReportRecord record, const Instant& now) {
 /// Also enters it in the report if it is not the plan.
 void HlcMachine::publish_command(coordination::Report& report, const Instant& now) {
   if (ending_.is_asked) return;
-  if (!rules_.answers_every_list && controller().is_vehicle_lost()) return;
+  if (rules_.spares_lost_vehicle && controller().is_vehicle_lost()) return;
   const AnswerToList answer = core_.answer(current_.list);
   copies_.publish(answer, now.wall, actions_);
   notes_.note_fault(step_of(current_.list), answer.fault, actions_);

@@ -44,6 +44,12 @@ struct HlcRules {
   /// False: of several lists only the newest is answered. The steps of the others have no report,
   /// and the summary counts each as a missed deadline.
   bool answers_every_list{};
+  /// A controller that is ready and receives no lists logs it. (In logical time a list comes when
+  /// everybody is done.)
+  bool logs_missing_lists{};
+  /// A vehicle that is not seen is sent nothing (rule 5 of plan_in_force.hpp). In logical time no
+  /// message is lost, so the vehicle drives its plan, and a command is due for every list.
+  bool spares_lost_vehicle{};
   /// The stop symbol of the lab domain counts, too, not only the one that the middleware forwards.
   /// (In logical time there are 50 triggers a second and no car that a stop could save.)
   bool stops_on_lab_domain{};
@@ -53,6 +59,8 @@ struct HlcRules {
   Nanoseconds duplicate_patience{};
   Nanoseconds middleware_patience{};   ///< for a middleware that is lost; 0: none
   Nanoseconds preparation_patience{};  ///< of a step for requested subgraphs; 0: none
+  /// While it waits for the others' traffic it warms up (Controller::warm_up): for speed only.
+  bool warms_up{true};
 };
 
 /// @param keeps_commands  the middleware keeps all commands until it reads them (loopback); false:

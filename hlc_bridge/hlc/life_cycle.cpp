@@ -1,5 +1,7 @@
 #include "hlc_bridge/hlc/life_cycle.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -59,10 +61,10 @@ void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   if (!readiness_.is_ready() && peers_notice_.is_due(wall)) {
     actions.info("waiting: " + readiness_.missing());
   }
-  if (readiness_.is_ready() && !rules_.answers_every_list && list_notice_.is_due(wall)) {
+  if (readiness_.is_ready() && rules_.logs_missing_lists && list_notice_.is_due(wall)) {
     const Nanoseconds silence = wall - last_list_at_ + kNanosecondsPerSecond / 2;
-    actions.warn("waiting: no state list from " + middleware_.name() + " for " +
-                 std::to_string(silence / kNanosecondsPerSecond) + " s");
+    actions.warn(fmt::format("waiting: no state list from {} for {} s", middleware_.name(),
+                             silence / kNanosecondsPerSecond));
   }
 }
 
@@ -91,8 +93,8 @@ std::optional<int> LifeCycle::exit_code(Nanoseconds wall, bool has_list,
   }
   if (lab_control_.is_lost_for_good(wall)) return kExitDied;
   if (!has_list && is_start_overdue(wall)) {
-    actions.error(readiness_.missing() + " within " +
-                  std::to_string(startup_timeout_ / kNanosecondsPerSecond) + " s");
+    actions.error(fmt::format("{} within {} s", readiness_.missing(),
+                              startup_timeout_ / kNanosecondsPerSecond));
     return kExitMissing;
   }
   return std::nullopt;
@@ -109,7 +111,7 @@ std::optional<Nanoseconds> LifeCycle::wake_up() const {
     return earlier(wake, std::min(peers_notice_.next(), *began_at_ + startup_timeout_ + 1));
   }
   if (repeats_ready_) wake = earlier(wake, next_ready_at_);
-  return rules_.answers_every_list ? wake : earlier(wake, list_notice_.next());
+  return rules_.logs_missing_lists ? earlier(wake, list_notice_.next()) : wake;
 }
 
 }  // namespace hlc::high_level_controller

@@ -1,5 +1,7 @@
 #include "hlc_bridge/hlc/operator_notes.hpp"
 
+#include <fmt/format.h>
+
 #include "hlc_bridge/hlc/placement_line.hpp"
 
 namespace hlc::high_level_controller {
@@ -25,8 +27,8 @@ void OperatorNotes::note_fallback(const controller::Controller& controller,
 
 void OperatorNotes::note_fault(StepIndex step, const std::string& fault, HlcActions& actions) {
   if (!fault.empty() && fault != last_fault_) {
-    actions.error("command of step " + std::to_string(step.value) +
-                  " not sent, republished the last good one: " + fault);
+    actions.error(fmt::format("command of step {} not sent, republished the last good one: {}",
+                              step.value, fault));
   }
   last_fault_ = fault;
 }

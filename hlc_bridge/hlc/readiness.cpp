@@ -1,5 +1,7 @@
 #include "hlc_bridge/hlc/readiness.hpp"
 
+#include <fmt/format.h>
+
 #include "hlc_bridge/messages/node_names.hpp"
 
 namespace hlc::high_level_controller {
@@ -49,7 +51,7 @@ std::string Readiness::missing() const {
   if (active_.empty()) return "no state list received from the middleware";
   std::set<std::string> names = unmatched_peers();
   if (peers_.command_readers == 0) names.insert("the middleware's reader of commands");
-  return "missing: " + machine::joined(names);
+  return fmt::format("missing: {}", fmt::join(names, ", "));
 }
 
 }  // namespace hlc::high_level_controller

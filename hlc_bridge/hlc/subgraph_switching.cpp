@@ -1,5 +1,7 @@
 #include "hlc_bridge/hlc/subgraph_switching.hpp"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
@@ -9,7 +11,7 @@ namespace hlc::high_level_controller {
 namespace {
 
 std::string switch_line(const std::string& subgraph, StepIndex step) {
-  return "planning on subgraph " + subgraph + " from step " + std::to_string(step.value) + " on";
+  return fmt::format("planning on subgraph {} from step {} on", subgraph, step.value);
 }
 
 void publish(const AutomatonAnswer& answer, HlcActions& actions) {

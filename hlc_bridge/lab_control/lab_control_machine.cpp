@@ -1,8 +1,8 @@
 #include "hlc_bridge/lab_control/lab_control_machine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
 
 #include "hlc_bridge/messages/node_names.hpp"
@@ -14,12 +14,6 @@ namespace {
 static_assert(machine::Machine<LabControlMachine>);
 
 constexpr double kSecondsPerNanosecond = 1e-9;
-
-std::string one_decimal(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f", value);
-  return text.data();
-}
 
 }  // namespace
 
@@ -89,9 +83,8 @@ void LabControlMachine::show_progress(Nanoseconds wall, Actions& actions) {
   const double driven_s =
       static_cast<double>(steps) * static_cast<double>(settings.period) * kSecondsPerNanosecond;
   const double wall_s = static_cast<double>(wall - began_.value_or(wall)) * kSecondsPerNanosecond;
-  actions.emplace_back(ProgressText{"step " + std::to_string(steps) + " of " +
-                                    std::to_string(settings.steps) + ", " + one_decimal(driven_s) +
-                                    " s driven in " + one_decimal(wall_s) + " s"});
+  actions.emplace_back(ProgressText{fmt::format("step {} of {}, {:.1f} s driven in {:.1f} s", steps,
+                                                settings.steps, driven_s, wall_s)});
 }
 
 void LabControlMachine::leave(Nanoseconds wall) {

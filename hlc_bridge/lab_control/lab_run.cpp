@@ -1,5 +1,7 @@
 #include "hlc_bridge/lab_control/lab_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "hlc_bridge/messages/node_names.hpp"
@@ -7,24 +9,12 @@
 namespace hlc::lab_control {
 namespace {
 
-std::string join(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) {
-    line += (line.empty() ? "" : ", ") + word;
-  }
-  return line;
-}
-
-std::string seconds(Nanoseconds time) {
-  return std::to_string(time / kNanosecondsPerSecond) + " s";
-}
-
 std::string deaths_line(const std::vector<Death>& deaths) {
   std::vector<std::string> names;
   for (const Death& death : deaths) {
     names.push_back(death.process);
   }
-  return "died: " + join(names);
+  return fmt::format("died: {}", fmt::join(names, ", "));
 }
 
 std::vector<std::string> controller_names(const std::vector<std::uint8_t>& ids) {
@@ -105,7 +95,9 @@ void LabRun::gather(LabRunActions& actions) {
     last_progress_ = now_;
     actions.run_state = RunPhase::kRunning;
   } else if (is_end_requested_ || too_late) {
-    fail(kExitMissing, "after " + seconds(settings_.startup_timeout) + ": " + waiting_for());
+    fail(kExitMissing,
+         fmt::format("after {} s: {}", settings_.startup_timeout / kNanosecondsPerSecond,
+                     waiting_for()));
     actions.triggers.push_back(kStopSymbol);
     enter(Phase::kFinished);
   }
@@ -198,12 +190,12 @@ void LabRun::leave_running_phases(LabRunActions& actions) {
     }
     const std::vector<std::uint8_t> standing = reports_.on_standby();
     if (phase_ == Phase::kRunning && !standing.empty()) {
-      fail(kExitMissing,
-           "still on standby at the end: " + join(controller_names(standing)) + "; see its log");
+      fail(kExitMissing, fmt::format("still on standby at the end: {}; see its log",
+                                     fmt::join(controller_names(standing), ", ")));
     }
     const std::set<std::string>& gone = attendance_.dropped();
     if (settings_.on_death == OnDeath::kContinue && !gone.empty()) {
-      fail(kExitDied, "died and not back: " + join({gone.begin(), gone.end()}));
+      fail(kExitDied, fmt::format("died and not back: {}", fmt::join(gone, ", ")));
     }
     stop(actions);
   }
@@ -281,16 +273,12 @@ std::string LabRun::waiting_for() const {
   }
   const std::vector<std::string> unreached = attendance_.unreached_timers();
   if (absent.empty() && waiting.empty() && !unreached.empty()) {
-    waiting.push_back("triggers, not yet matched by " + join(unreached));
+    waiting.push_back(fmt::format("triggers, not yet matched by {}", fmt::join(unreached, ", ")));
   }
-  std::string line;
-  if (!absent.empty()) {
-    line += "missing: " + join(absent);
-  }
-  if (!waiting.empty()) {
-    line += (absent.empty() ? "" : "; ") + ("not ready: " + join(waiting));
-  }
-  return line;
+  std::vector<std::string> parts;
+  if (!absent.empty()) parts.push_back(fmt::format("missing: {}", fmt::join(absent, ", ")));
+  if (!waiting.empty()) parts.push_back(fmt::format("not ready: {}", fmt::join(waiting, ", ")));
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string LabRun::standby_line() const {
@@ -298,8 +286,9 @@ std::string LabRun::standby_line() const {
   for (const std::uint8_t id : settings_.vehicle_ids) {
     names.push_back(controller_name(id) + (reports_.last(id) ? "" : " (silent)"));
   }
-  return "no vehicle left standby within " + seconds(kStandbyTimeout) + ": " + join(names) +
-         "; check that every vehicle's state is valid";
+  return fmt::format(
+      "no vehicle left standby within {} s: {}; check that every vehicle's state is valid",
+      kStandbyTimeout / kNanosecondsPerSecond, fmt::join(names, ", "));
 }
 
 }  // namespace hlc::lab_control

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -13,29 +15,25 @@ namespace hlc {
 inline constexpr const char* kLabControlName = "lab_control";
 
 [[nodiscard]] inline std::string vehicle_name(std::uint8_t vehicle_id) {
-  return "vehicle_raspberry_" + std::to_string(vehicle_id);
+  return fmt::format("vehicle_raspberry_{}", vehicle_id);
 }
 
 [[nodiscard]] inline std::string middleware_name(std::uint8_t vehicle_id) {
-  return "middleware_" + std::to_string(vehicle_id);
+  return fmt::format("middleware_{}", vehicle_id);
 }
 
 [[nodiscard]] inline std::string controller_name(std::uint8_t vehicle_id) {
-  return "high_level_controller_" + std::to_string(vehicle_id);
+  return fmt::format("high_level_controller_{}", vehicle_id);
 }
 
 /// source_id with which a controller reports to its middleware that it is ready.
 [[nodiscard]] inline std::string controller_ready_id(std::uint8_t vehicle_id) {
-  return "hlc_" + std::to_string(vehicle_id);
+  return fmt::format("hlc_{}", vehicle_id);
 }
 
 /// source_id with which a middleware reports to the lab control that its controllers are ready.
 [[nodiscard]] inline std::string middleware_ready_id(std::span<const std::uint8_t> vehicle_ids) {
-  std::string ids;
-  for (const std::uint8_t id : vehicle_ids) {
-    ids += (ids.empty() ? "" : ", ") + std::to_string(id);
-  }
-  return "MW for muCars " + ids + " ready.";
+  return fmt::format("MW for muCars {} ready.", fmt::join(vehicle_ids, ", "));
 }
 
 [[nodiscard]] inline std::string middleware_ready_id(std::uint8_t vehicle_id) {

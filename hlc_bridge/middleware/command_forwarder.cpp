@@ -1,5 +1,7 @@
 #include "hlc_bridge/middleware/command_forwarder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -35,9 +37,9 @@ void CommandForwarder::receive(VehicleCommand command, Nanoseconds t_now, Nanose
   const CommandVerdict verdict = check(command, t_now, newest_list);
   for (const CommandFault fault : verdict.faults) {
     if (!logged_faults_.insert(fault).second) continue;
-    actions.emplace_back(
-        machine::warning("command of " + controller_name(vehicle_id) + ": " + to_string(fault) +
-                         (verdict.forward ? "" : "; not forwarded") + " (logged once)"));
+    actions.emplace_back(machine::warning(fmt::format("command of {}: {}{} (logged once)",
+                                                      controller_name(vehicle_id), to_string(fault),
+                                                      verdict.forward ? "" : "; not forwarded")));
   }
   if (const auto answer = newest_answers_.find(vehicle_id); answer != newest_answers_.end()) {
     const auto create_stamp = std::visit([](const auto& any) { return any.create_stamp; }, command);
@@ -57,8 +59,8 @@ std::vector<std::uint8_t> CommandForwarder::unanswered(Nanoseconds list) const {
 void CommandForwarder::count_missed_answers(Nanoseconds list, MiddlewareActions& actions) {
   for (const std::uint8_t id : unanswered(list)) {
     if (missed_answers_++ > 0) continue;
-    actions.emplace_back(machine::warning(controller_name(id) + " has missed the list of " +
-                                          std::to_string(list) + " ns"));
+    actions.emplace_back(machine::warning(
+        fmt::format("{} has missed the list of {} ns", controller_name(id), list)));
   }
 }
 

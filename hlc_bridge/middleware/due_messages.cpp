@@ -1,5 +1,7 @@
 #include "hlc_bridge/middleware/due_messages.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "hlc_bridge/messages/time_grid.hpp"
@@ -20,9 +22,9 @@ bool DueMessages::are_in(const std::vector<std::uint8_t>& peers, Nanoseconds now
   if (pending.empty()) return true;
   if (now < deadline_) return false;
   silent_.insert(peers.begin(), peers.end());
-  actions.emplace_back(machine::warning(machine::joined(pending) + ": no message for " +
-                                        std::to_string(patience_ / kNanosecondsPerSecond) +
-                                        " s; no longer waiting"));
+  actions.emplace_back(
+      machine::warning(fmt::format("{}: no message for {} s; no longer waiting",
+                                   fmt::join(pending, ", "), patience_ / kNanosecondsPerSecond)));
   awaited_ = 0;
   return true;
 }

@@ -1,5 +1,7 @@
 #include "hlc_bridge/middleware/experiment_cycle.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "hlc_bridge/messages/node_names.hpp"
@@ -67,7 +69,7 @@ void ExperimentCycle::announce_readiness(Nanoseconds now, MiddlewareActions& act
   if (!unready.empty()) {
     if (notice_->is_due(now)) {
       actions.emplace_back(
-          machine::info("waiting for " + machine::joined(unready) + " to be ready"));
+          machine::info(fmt::format("waiting for {} to be ready", fmt::join(unready, ", "))));
     }
   } else if (!is_between_ || next_.is_known()) {
     actions.emplace_back(ReadyStatus{.source_id = middleware_ready_id(vehicle_ids_)});

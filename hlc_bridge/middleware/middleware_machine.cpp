@@ -1,5 +1,7 @@
 #include "hlc_bridge/middleware/middleware_machine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -152,7 +154,7 @@ std::string MiddlewareMachine::missing_peers() const {
       missing.push_back(vehicle_name(id));
     }
   }
-  return machine::joined(missing);
+  return fmt::format("{}", fmt::join(missing, ", "));
 }
 
 void MiddlewareMachine::look_for_end(const Instant& now) {
@@ -170,8 +172,8 @@ void MiddlewareMachine::look_for_end(const Instant& now) {
 
 void MiddlewareMachine::leave(int exit_code, const Instant& now) {
   if (forwarder_.missed_answers() > 0) {
-    actions_.emplace_back(machine::warning(std::to_string(forwarder_.missed_answers()) +
-                                           " lists without an answer in time"));
+    actions_.emplace_back(machine::warning(
+        fmt::format("{} lists without an answer in time", forwarder_.missed_answers())));
   }
   const bool is_awaited = cycle_.is_stopped() && peers_.commands_are_sent;
   ending_.exit_code = exit_code;

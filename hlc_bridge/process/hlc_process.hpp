@@ -85,7 +85,7 @@ class HlcProcess {
   void stop() { shell_.stop(); }
 
  private:
-  friend class Shell<high_level_controller::HlcMachine>;
+  friend class machine::Loop<high_level_controller::HlcMachine>;
 
   [[nodiscard]] dds::ParticipantOptions on_domain(std::optional<int> domain, dds::DomainRole role);
   void prepare_thread() const;

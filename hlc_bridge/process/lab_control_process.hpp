@@ -52,7 +52,7 @@ class LabControlProcess {
   void interrupt() { shell_.stop(); }
 
  private:
-  friend class Shell<lab_control::LabControlMachine>;
+  friend class machine::Loop<lab_control::LabControlMachine>;
 
   struct Writers {
     Writers(dds::Participant& lab, dds::Participant& controllers,

@@ -62,7 +62,7 @@ class MiddlewareProcess {
   void stop() { shell_.stop(); }
 
  private:
-  friend class Shell<middleware::MiddlewareMachine>;
+  friend class machine::Loop<middleware::MiddlewareMachine>;
   /// The endpoints for one vehicle.
   struct Vehicle;
   /// Endpoints for the lab's programs only: on its transport.
@@ -95,6 +95,7 @@ class MiddlewareProcess {
   void perform(const GoalState& goal);
   void perform(const middleware::VehicleCommand& command);
   void perform(const ReadyStatus& status) { lab_control_.ready.write(status); }
+  void announce_tick(const ReadyStatus& status) { perform(status); }
   void perform(const ParameterRequest& request) { lab_control_.request.write(request); }
   [[nodiscard]] middleware::MiddlewarePeers presence() const;
 

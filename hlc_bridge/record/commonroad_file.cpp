@@ -33,7 +33,7 @@ void add_state(road::CommonRoadWriter& xml, const vehicle::State& state, std::si
   xml.close_inline();
   add_exact(xml, "orientation", wrap_angle(state.pose.heading_rad));
   xml.open_inline("time");
-  xml.text("exact", std::to_string(time));
+  xml.text("exact", fmt::to_string(time));
   xml.close_inline();
   add_exact(xml, "velocity", state.speed_mps);
   if (steering == Steering::kWritten) add_exact(xml, "steeringAngle", state.steering_rad);
@@ -81,8 +81,8 @@ void add_problem(road::CommonRoadWriter& xml, int id, const vehicle::VehiclePara
   xml.close_inline();
   xml.open("goalState");
   xml.open_inline("time");
-  xml.text("intervalStart", std::to_string(planned.size() - 1));
-  xml.text("intervalEnd", std::to_string(planned.size() - 1));
+  xml.text("intervalStart", fmt::to_string(planned.size() - 1));
+  xml.text("intervalEnd", fmt::to_string(planned.size() - 1));
   xml.close_inline();
   xml.close_inline();
   xml.close();

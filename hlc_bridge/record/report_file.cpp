@@ -132,9 +132,9 @@ ReportRecord read_row(RowReader row) {
 }  // namespace
 
 std::string ids_to_text(const std::vector<VehicleId>& ids) {
-  std::string text;
-  for (const VehicleId id : ids) text += fmt::format("{}{}", text.empty() ? "" : ";", id.value);
-  return text;
+  std::vector<unsigned> values;
+  for (const VehicleId id : ids) values.push_back(id.value);
+  return fmt::format("{}", fmt::join(values, ";"));
 }
 
 ReportFile::ReportFile(std::filesystem::path file)

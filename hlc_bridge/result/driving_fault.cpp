@@ -1,17 +1,17 @@
 #include "hlc_bridge/result/driving_fault.hpp"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace hlc::result {
 
 std::string danger_of(const RunSummary& summary) {
   if (summary.collisions > 0) {
-    return "vehicles collided " + std::to_string(summary.collisions) + " times";
+    return fmt::format("vehicles collided {} times", summary.collisions);
   }
   for (const VehicleSummary& vehicle : summary.vehicles) {
     if (vehicle.steps_outside_announced_area == 0) continue;
-    return "vehicle " + std::to_string(vehicle.id.value) + " left its announced areas in " +
-           std::to_string(vehicle.steps_outside_announced_area) + " steps";
+    return fmt::format("vehicle {} left its announced areas in {} steps", vehicle.id.value,
+                       vehicle.steps_outside_announced_area);
   }
   return "";
 }
@@ -22,13 +22,10 @@ std::string driving_fault(const RunSummary& summary) {
   for (const VehicleSummary& vehicle : summary.vehicles) {
     const double deviation_m = vehicle.deviation_max_m.value_or(0.0);
     if (deviation_m <= margin_m) continue;
-    char text[96];
-    std::snprintf(
-        text, sizeof text,
-        "vehicle %u deviated by up to %.1f mm from its plan, more than the safety margin of "
-        "%.1f mm",
-        unsigned{vehicle.id.value}, 1e3 * deviation_m, 1e3 * margin_m);
-    return text;
+    return fmt::format(
+        "vehicle {} deviated by up to {:.1f} mm from its plan, more than the safety margin of "
+        "{:.1f} mm",
+        vehicle.id.value, 1e3 * deviation_m, 1e3 * margin_m);
   }
   return "";
 }

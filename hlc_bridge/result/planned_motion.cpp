@@ -1,21 +1,21 @@
 #include "hlc_bridge/result/planned_motion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 
+#include "planner/automaton/trim_format.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc::result {
 namespace {
 
 [[noreturn]] void refuse(const StepRecord& row, const std::string& what) {
-  throw std::runtime_error("vehicle " + std::to_string(row.record.report.vehicle.value) +
-                           ", step " + std::to_string(row.step) + ": " + what);
+  throw std::runtime_error(
+      fmt::format("vehicle {}, step {}: {}", row.record.report.vehicle.value, row.step, what));
 }
-
-/// Numbered from 1, for readers.
-std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
 
 /// Pose at the begin of a motion with a known end.
 Pose begin_of(const automaton::Maneuver& maneuver, const Pose& end) {
@@ -53,9 +53,10 @@ std::vector<vehicle::State> planned_motion(std::span<const StepRecord* const> ro
     if (k + 1 == rows.size() || rows[k + 1]->step != k + 1) continue;
     const automaton::Maneuver* maneuver = maneuver_during(*rows[k], rows[k + 1], automaton);
     if (maneuver == nullptr) {
-      refuse(*rows[k], "no maneuver from trim " + number_of(report.planned_trim) + " to " +
-                           number_of(rows[k + 1]->record.report.planned_trim) + " with label '" +
-                           one_line(report.maneuver) + "', must be in the automaton");
+      refuse(*rows[k],
+             fmt::format("no maneuver from trim {} to {} with label '{}', must be in the automaton",
+                         report.planned_trim, rows[k + 1]->record.report.planned_trim,
+                         one_line(report.maneuver)));
     }
     const Pose begin = begin_of(*maneuver, rows[k + 1]->record.report.planned_pose);
     for (Nanoseconds t = interval; t < period; t += interval) {

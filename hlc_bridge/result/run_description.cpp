@@ -1,5 +1,7 @@
 #include "hlc_bridge/result/run_description.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -33,15 +35,15 @@ RunDescription describe(const scenario::Scenario& scenario,
 void check_run(const RunFacts& facts, const RunDescription& description) {
   const double period_s = 1e-9 * static_cast<double>(facts.period);
   if (std::abs(period_s - description.step_s) > 1e-9) {
-    throw std::runtime_error("run.json: period_ns = " + std::to_string(facts.period) +
-                             ", must be the step of scenario " + description.scenario + ", " +
-                             shortest_text(description.step_s) + " s");
+    throw std::runtime_error(
+        fmt::format("run.json: period_ns = {}, must be the step of scenario {}, {} s", facts.period,
+                    description.scenario, shortest_text(description.step_s)));
   }
   for (const std::uint8_t id : facts.vehicle_ids) {
     if (std::none_of(description.vehicles.begin(), description.vehicles.end(),
                      [id](const auto& vehicle) { return vehicle.id.value == id; })) {
-      throw std::runtime_error("run.json: vehicle_ids has " + std::to_string(id) +
-                               ", which is not in scenario " + description.scenario);
+      throw std::runtime_error(fmt::format(
+          "run.json: vehicle_ids has {}, which is not in scenario {}", id, description.scenario));
     }
   }
 }

@@ -1,5 +1,7 @@
 #include "hlc_bridge/view/lab_map.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -41,9 +43,9 @@ std::vector<Point> path_of(const coordination::Plan& plan, StepIndex from,
 
 std::string text_of(const coordination::Report& report) {
   std::string text =
-      std::to_string(report.vehicle.value) + ": " + coordination::to_string(report.status);
+      fmt::format("{}: {}", report.vehicle.value, coordination::to_string(report.status));
   if (report.reason != coordination::FallbackReason::kNone) {
-    text += std::string(" (") + coordination::to_string(report.reason) + ")";
+    text += fmt::format(" ({})", coordination::to_string(report.reason));
   }
   return text;
 }

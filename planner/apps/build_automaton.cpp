@@ -1,4 +1,6 @@
 // Builds the universal automaton of a configuration and writes it to a file.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -81,7 +83,7 @@ void run(const Choices& choices) {
   hlc::maneuver_design::AutomatonConfiguration to_build = configuration;
   if (choices.intervals) {
     to_build.intervals = *choices.intervals;
-    to_build.places.intervals = "--intervals = " + std::to_string(*choices.intervals);
+    to_build.places.intervals = fmt::format("--intervals = {}", *choices.intervals);
   }
   const auto begin = std::chrono::steady_clock::now();
   const hlc::automaton::AutomatonFile file = hlc::maneuver_design::file_of(

@@ -10,7 +10,6 @@
 #include <iostream>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -154,13 +153,10 @@ Notes notes_on(const std::vector<hlc::maneuver_design::DriveSample>& samples,
 }
 
 std::string excess(const Notes& notes, const hlc::vehicle::VehicleLimits& limits) {
-  std::string text;
-  const auto add = [&text](const char* what, double value, const char* unit, const char* bound,
-                           double allowed) {
-    std::ostringstream part;
-    part << (text.empty() ? "" : "; ") << what << ' ' << value << unit << ", must be " << bound
-         << allowed;
-    text += part.str();
+  std::vector<std::string> texts;
+  const auto add = [&texts](const char* what, double value, const char* unit, const char* bound,
+                            double allowed) {
+    texts.push_back(fmt::format("{} {:g}{}, must be {}{:g}", what, value, unit, bound, allowed));
   };
   if (notes.fastest_mps > limits.speed_max_mps) {
     add("speed up to", notes.fastest_mps, " m/s", "<= ", limits.speed_max_mps);
@@ -171,7 +167,7 @@ std::string excess(const Notes& notes, const hlc::vehicle::VehicleLimits& limits
   if (notes.sharpest_rad > limits.steering_max_rad) {
     add("steering up to", notes.sharpest_rad, " rad", "<= ", limits.steering_max_rad);
   }
-  return text;
+  return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 /// A line per kind of samples that do not count as they are.

@@ -182,10 +182,18 @@ void check_each_once(const std::string& flag, const std::vector<Value>& values) 
   }
 }
 
+/// For a profile, or a list of them.
+template <class Profiles>
+CLI::Option* declare_profile_flag(CLI::App& app, Profiles& profiles) {
+  return app.add_option("--profile", profiles, "rules for planning and coordination")
+      ->check(among({"default", "2022"}))
+      ->capture_default_str();
+}
+
 /// The flags that choose a scenario.
 inline void declare_scenario_flags(CLI::App& app, scenario::ScenarioChoices& choices) {
   app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
-  app.add_option("--profile", choices.profile, "rules: default or 2022")->capture_default_str();
+  declare_profile_flag(app, choices.profile);
   app.add_option("--engine", choices.engine,
                  std::string("search engine: ") + scenario::kEngineChoices +
                      " (default: the scenario's, else the profile's)");

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <fmt/chrono.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -9,8 +11,8 @@
 
 namespace hlc::apps {
 
-/// "what 13 of 64" on stderr, updated in place and erased at the end; nothing if stderr is no
-/// terminal.
+/// "what 13 of 64, 00:02:10 left" on stderr, updated in place and erased at the end; nothing if
+/// stderr is no terminal.
 class ProgressLine {
  public:
   ProgressLine(std::string what, std::size_t total)
@@ -21,14 +23,21 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  void show(std::size_t done) const {
-    if (is_shown_) std::fprintf(stderr, "\r%s %zu of %zu", what_.c_str(), done, total_);
+  /// @pre done >= 1
+  /// @param more  behind the remaining time
+  void show(std::size_t done, const std::string& more = "") const {
+    if (!is_shown_) return;
+    const auto passed = std::chrono::steady_clock::now() - begin_;
+    const auto left = std::chrono::duration_cast<std::chrono::seconds>(
+        passed / static_cast<double>(done) * static_cast<double>(total_ - done));
+    fmt::print(stderr, "\r\033[K{} {} of {}, {:%T} left{}", what_, done, total_, left, more);
   }
 
  private:
   std::string what_;
   std::size_t total_;
   bool is_shown_;
+  std::chrono::steady_clock::time_point begin_{std::chrono::steady_clock::now()};
 };
 
 }  // namespace hlc::apps

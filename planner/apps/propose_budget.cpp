@@ -1,5 +1,7 @@
 // Proposes a budget of expansions for a deadline, measured on this machine with the problems of a
 // scenario. A run never measures: the budget stays a number in the scenario file.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -53,8 +55,7 @@ void declare(CLI::App& app, Flags& flags) {
                  "factor: the search is expected to need 1 / safety of the deadline")
       ->check(hlc::apps::within(1.0, 1000.0))
       ->capture_default_str();
-  app.add_option("--profile", flags.scenario.profile, "rules: default or 2022")
-      ->capture_default_str();
+  hlc::apps::declare_profile_flag(app, flags.scenario.profile);
   app.add_option("--engine", flags.scenario.engine, "instead of the scenario's");
   app.add_option("--subgraph", flags.scenario.subgraph, "instead of the scenario's");
   app.add_option("--steps", flags.scenario.steps, "that are looked at, instead of the scenario's")
@@ -186,9 +187,9 @@ int run(const Flags& flags) {
   }
   const Measurements found = measure(scenario, problems);
   if (found.slowest.empty()) {
-    throw std::invalid_argument(flags.scenario.file.string() + ": no search expands " +
-                                std::to_string(kInformative) +
-                                " vertices, must be a scenario with harder searches");
+    throw std::invalid_argument(
+        fmt::format("{}: no search expands {} vertices, must be a scenario with harder searches",
+                    flags.scenario.file.string(), kInformative));
   }
   std::printf(
       "%s: engine %s, cost-to-go %s, horizon %zu, subgraph %s; %zu problems of %zu steps\n\n",

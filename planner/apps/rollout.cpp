@@ -1,5 +1,7 @@
 // Planning and coordination without DDS and vehicle dynamics: all controllers of a scenario in one
 // process, with vehicles that follow their plans perfectly. For a quick check of a scenario.
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -45,9 +47,8 @@ void print(const Tally& tally, const hlc::scenario::ScenarioVehicle& vehicle, do
   }
   const std::optional<double> lap_s =
       hlc::road::lap_s(vehicle.path, progress, times_s, hlc::road::kFirstStepDriven);
-  char lap[16] = "-";
-  if (lap_s) std::snprintf(lap, sizeof(lap), "%.2f", *lap_s);
-  std::printf("%-10s %8s %12.1f %11.1f %14llu %13llu %10d %8d\n", vehicle.name.c_str(), lap,
+  const std::string lap = lap_s ? fmt::format("{:.2f}", *lap_s) : "-";
+  std::printf("%-10s %8s %12.1f %11.1f %14llu %13llu %10d %8d\n", vehicle.name.c_str(), lap.c_str(),
               1e3 * sum_m / static_cast<double>(times_s.size()), 1e3 * max_m,
               static_cast<unsigned long long>(tally.generated_max),
               static_cast<unsigned long long>(tally.expanded_max), tally.fallbacks, tally.changed);

@@ -1,4 +1,6 @@
 // Prints the content of an automaton file.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -108,12 +110,6 @@ void print_labels(const AutomatonFile& file) {
   }
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : "+") + word;
-  return text;
-}
-
 void print_subgraphs(const AutomatonFile& file) {
   std::printf(
       "\nsubgraphs: enabled trims, edges between them, disabled trims with exit edges,\n"
@@ -127,14 +123,15 @@ void print_subgraphs(const AutomatonFile& file) {
       for (const hlc::automaton::Edge& edge : subgraph.successors(trim))
         edges += edge.to == trim ? 0U : 1U;
     }
-    std::printf("%-12s %-12s %-10s %6zu %6zu %6zu ", spec.name.c_str(), joined(spec.labels).c_str(),
+    std::printf("%-12s %-12s %-10s %6zu %6zu %6zu ", spec.name.c_str(),
+                fmt::format("{}", fmt::join(spec.labels, "+")).c_str(),
                 spec.rule == hlc::automaton::EdgeRule::kChain ? "chain" : "reachable",
                 subgraph.trims().size(), edges,
                 subgraph.start_trims().size() - subgraph.trims().size());
     for (std::size_t i = 0; i < file.automaton->trims.size(); ++i) {
       const std::size_t steps = subgraph.distance_to_standstill({i});
       std::printf(" %s",
-                  steps == hlc::automaton::Subgraph::kNever ? "-" : std::to_string(steps).c_str());
+                  steps == hlc::automaton::Subgraph::kNever ? "-" : fmt::to_string(steps).c_str());
     }
     std::printf("\n");
   }

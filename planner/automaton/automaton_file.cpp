@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "planner/automaton/maneuver_check.hpp"
@@ -26,9 +24,9 @@ namespace {
 constexpr const char* kHashKey = "sha256: ";
 
 std::string row(std::initializer_list<double> values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : " ") + shortest_text(value);
-  return text;
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(shortest_text(value));
+  return fmt::format("{}", fmt::join(texts, " "));
 }
 
 std::string row(const vehicle::Input& u) {
@@ -47,11 +45,11 @@ void append_table(std::string& text, const char* key, const Rows& rows) {
 }
 
 std::string map_of(const std::vector<CriterionValue>& values) {
-  std::string text;
+  std::vector<std::string> texts;
   for (const CriterionValue& value : values) {
-    text += (text.empty() ? "" : ", ") + value.name + ": " + shortest_text(value.value);
+    texts.push_back(value.name + ": " + shortest_text(value.value));
   }
-  return "{" + text + "}";
+  return fmt::format("{{{}}}", fmt::join(texts, ", "));
 }
 
 void append_maneuver(std::string& text, const Maneuver& m) {

@@ -1,7 +1,11 @@
 #include "planner/automaton/lab_check.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <vector>
+
+#include "planner/automaton/trim_format.hpp"
 
 namespace hlc::automaton {
 namespace {
@@ -17,8 +21,6 @@ std::vector<TimedPoint> points_of(const Maneuver& maneuver, double interval_s,
   return points;
 }
 
-std::string number_of(TrimId trim) { return std::to_string(trim.index + 1); }
-
 }  // namespace
 
 std::string validate_for_lab(const Subgraph& subgraph, const vehicle::LabLimits& limits) {
@@ -33,9 +35,9 @@ std::string validate_for_lab(const Subgraph& subgraph, const vehicle::LabLimits&
             points_of(m, limits.point_interval_s, automaton.vehicle);
         const auto found = vehicle::curve_fault(points, limits);
         if (!found) continue;
-        const std::string who = self_loops ? "trim " + number_of(trim)
-                                           : "maneuver " + number_of(m.from) + " -> " +
-                                                 number_of(m.to) + " (" + m.label + ")";
+        const std::string who =
+            self_loops ? fmt::format("trim {}", trim)
+                       : fmt::format("maneuver {} ({})", TrimPair{m.from, m.to}, m.label);
         return who + ": " + vehicle::to_text(*found, limits);
       }
     }

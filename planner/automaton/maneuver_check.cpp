@@ -1,5 +1,7 @@
 #include "planner/automaton/maneuver_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,8 +34,8 @@ double distance(const Pose& a, const Pose& b) {
 std::string validate_ends(const Maneuver& m, const UniversalAutomaton& automaton) {
   if (m.duration_s != automaton.step_s) return "duration must be the step";
   if (m.inputs.empty() || m.states.size() != m.inputs.size() + 1) {
-    return std::to_string(m.inputs.size()) + " inputs and " + std::to_string(m.states.size()) +
-           " states, not one state more than inputs";
+    return fmt::format("{} inputs and {} states, not one state more than inputs", m.inputs.size(),
+                       m.states.size());
   }
   if (m.states.front().pose != Pose{}) return "begin must be the origin";
   if (!is_trim(m.states.front(), automaton.trims[m.from.index], automaton.limits)) {
@@ -68,11 +70,11 @@ std::string validate_bounds(const Maneuver& m, const UniversalAutomaton& automat
   for (std::size_t k = 0; k < m.inputs.size(); ++k) {
     if (!vehicle::is_within_friction(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
         !vehicle::is_within_friction(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
-      return "friction circle exceeded in interval " + std::to_string(k + 1);
+      return fmt::format("friction circle exceeded in interval {}", k + 1);
     }
     if (!vehicle::is_within_curvature(m.states[k], m.inputs[k], automaton.vehicle, limits) ||
         !vehicle::is_within_curvature(m.states[k + 1], m.inputs[k], automaton.vehicle, limits)) {
-      return "curvature limit exceeded in interval " + std::to_string(k + 1);
+      return fmt::format("curvature limit exceeded in interval {}", k + 1);
     }
   }
   return "";
@@ -107,7 +109,7 @@ std::string validate_motion(const Maneuver& m, const vehicle::VehicleParameters&
                          std::abs(reached.steering_rad - stored.steering_rad) <= tolerance;
     // Negated, so that a NaN is a fault.
     if (!(is_same && distance(reached.pose, stored.pose) <= tolerance)) {
-      return "integrated again, does not meet state " + std::to_string(k + 2);
+      return fmt::format("integrated again, does not meet state {}", k + 2);
     }
   }
   return "";

@@ -1,11 +1,14 @@
 #include "planner/automaton/requested_subgraph.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "planner/automaton/trim_format.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc::automaton {
@@ -13,18 +16,9 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& reason) { throw std::invalid_argument(reason); }
 
-/// Numbered from 1, for users.
-std::string as_text(TrimId trim) { return std::to_string(trim.index + 1); }
-
-std::string as_text(const TrimPair& edge) { return as_text(edge.from) + " -> " + as_text(edge.to); }
-
-const std::string& as_text(const std::string& text) { return text; }
-
 template <class Items>
 std::string listed(const Items& items) {
-  std::string text;
-  for (const auto& item : items) text += (text.empty() ? "" : ", ") + as_text(item);
-  return text;
+  return fmt::format("{}", fmt::join(items, ", "));
 }
 
 bool contains(const std::vector<TrimId>& trims, TrimId trim) {
@@ -33,8 +27,7 @@ bool contains(const std::vector<TrimId>& trims, TrimId trim) {
 
 void check_trim(TrimId trim, const UniversalAutomaton& automaton) {
   if (trim.index >= automaton.trims.size()) {
-    refuse("trim " + as_text(trim) + ", must be in 1 ... " +
-           std::to_string(automaton.trims.size()));
+    refuse(fmt::format("trim {}, must be in 1 ... {}", trim, automaton.trims.size()));
   }
 }
 
@@ -68,7 +61,7 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
 void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (contains(spec.trims, trim))
-    refuse("trim " + as_text(trim) + " on: must be disabled, is enabled");
+    refuse(fmt::format("trim {} on: must be disabled, is enabled", trim));
   spec.trims.insert(std::ranges::find_if(spec.trims, [trim](TrimId other) { return other > trim; }),
                     trim);
 }
@@ -76,7 +69,7 @@ void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim
 void disable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (!contains(spec.trims, trim))
-    refuse("trim " + as_text(trim) + " off: must be enabled, is disabled");
+    refuse(fmt::format("trim {} off: must be enabled, is disabled", trim));
   std::erase(spec.trims, trim);
   const auto names_it = [trim](const auto& one) {
     return one.edge.from == trim || one.edge.to == trim;
@@ -88,7 +81,7 @@ void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimP
   check_trim(edge.from, automaton);
   check_trim(edge.to, automaton);
   if (std::erase_if(spec.off, [&](const DisabledEdges& off) { return off.edge == edge; }) == 0) {
-    refuse("edge " + as_text(edge) + " on: must be disabled in the scenario's subgraph");
+    refuse(fmt::format("edge {} on: must be disabled in the scenario's subgraph", edge));
   }
 }
 
@@ -130,12 +123,11 @@ std::string name_of(const std::string& base, const SubgraphRequest& request) {
 
 std::string label_of(std::vector<CriterionWeight> weights) {
   std::ranges::stable_sort(weights, {}, &CriterionWeight::criterion);
-  std::string label;
+  std::vector<std::string> texts;
   for (const CriterionWeight& one : weights) {
-    if (one.weight == 0.0) continue;
-    label += (label.empty() ? "" : " ") + one.criterion + " " + shortest_text(one.weight);
+    if (one.weight != 0.0) texts.push_back(one.criterion + " " + shortest_text(one.weight));
   }
-  return label;
+  return fmt::format("{}", fmt::join(texts, " "));
 }
 
 SubgraphSpec requested_spec(const Subgraph& base, const SubgraphRequest& request) {

@@ -1,9 +1,12 @@
 #include "planner/automaton/subgraph.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "planner/automaton/trim_format.hpp"
 #include "planner/vehicle/lateral_acceleration.hpp"
 #include "planner/vehicle/path_curvature.hpp"
 
@@ -11,10 +14,6 @@ namespace hlc::automaton {
 namespace {
 
 constexpr double kRounding_mps = 1e-6;  // of the states of maneuvers (maneuver_check)
-
-std::string printed(TrimId trim) { return std::to_string(trim.index + 1); }
-
-std::string printed(const TrimPair& edge) { return printed(edge.from) + " -> " + printed(edge.to); }
 
 template <class T>
 bool holds(const std::vector<T>& list, const T& value) {
@@ -176,7 +175,7 @@ void Subgraph::fail(const std::string& reason) const {
 void Subgraph::check_trim(TrimId trim) const {
   const std::size_t count = automaton_->trims.size();
   if (trim.index < count) return;
-  fail("trim " + printed(trim) + ", must be in 1 ... " + std::to_string(count));
+  fail(fmt::format("trim {}, must be in 1 ... {}", trim, count));
 }
 
 void Subgraph::check_labels(const std::vector<std::string>& labels) const {
@@ -192,7 +191,7 @@ void Subgraph::check_spec() const {
   };
   for (const TrimId trim : spec_.trims) {
     check_trim(trim);
-    if (holds_twice(spec_.trims, trim)) fail("trim " + printed(trim) + " is listed twice");
+    if (holds_twice(spec_.trims, trim)) fail(fmt::format("trim {} is listed twice", trim));
   }
   if (std::none_of(spec_.trims.begin(), spec_.trims.end(), stands)) {
     fail("no trim of speed 0 among its trims");
@@ -202,13 +201,13 @@ void Subgraph::check_spec() const {
     check_trim(one.edge.from);
     check_trim(one.edge.to);
     check_labels(one.labels);
-    if (one.edge.from == one.edge.to) fail("labels for a self-loop, " + printed(one.edge));
+    if (one.edge.from == one.edge.to) fail(fmt::format("labels for a self-loop, {}", one.edge));
   }
   for (const DisabledEdges& off : spec_.off) {
     check_trim(off.edge.from);
     check_trim(off.edge.to);
     if (off.edge.from == off.edge.to && stands(off.edge.from)) {
-      fail("edge " + printed(off.edge) + " is disabled, but standing must be possible");
+      fail(fmt::format("edge {} is disabled, but standing must be possible", off.edge));
     }
   }
 }
@@ -237,7 +236,7 @@ void Subgraph::switch_edges_on() {
                  automaton_->limits, automaton_->step_s);
   for (const EdgeLabels& one : spec_.edges) {
     if (!std::binary_search(pairs.begin(), pairs.end(), one.edge)) {
-      fail("labels for edge " + printed(one.edge) + ", which is not an edge of its rule");
+      fail(fmt::format("labels for edge {}, which is not an edge of its rule", one.edge));
     }
   }
   const ManeuversFrom held = maneuvers_from(*automaton_);
@@ -247,7 +246,7 @@ void Subgraph::switch_edges_on() {
     for (const std::string& label : labels_of(spec_, pair)) {
       const Maneuver* maneuver = find(held[pair.from.index], pair.to, label);
       if (maneuver == nullptr) {
-        fail("the automaton holds no edge " + printed(pair) + " with label '" + label + "'");
+        fail(fmt::format("the automaton holds no edge {} with label '{}'", pair, label));
       }
       if (is_too_fast(top_speed_mps(*maneuver))) continue;
       successors_[pair.from.index].push_back({pair.to, maneuver});
@@ -279,7 +278,7 @@ void Subgraph::measure_distances() {
   }
   for (const TrimId trim : trims_) {
     if (distance_to_standstill_[trim.index] == kNever) {
-      fail("no way from trim " + printed(trim) + " to a trim of speed 0");
+      fail(fmt::format("no way from trim {} to a trim of speed 0", trim));
     }
   }
 }
@@ -360,8 +359,8 @@ std::size_t Subgraph::distance_to_standstill(TrimId trim) const {
 
 void check_driving(const Subgraph& subgraph, std::size_t horizon_steps) {
   const auto fail = [&subgraph](TrimId trim, const std::string& what) {
-    throw std::invalid_argument("subgraph '" + subgraph.spec().name + "': trim " + printed(trim) +
-                                what);
+    throw std::invalid_argument(
+        fmt::format("subgraph '{}': trim {}{}", subgraph.spec().name, trim, what));
   };
   std::vector<bool> is_reached(subgraph.automaton().trims.size());
   std::vector<TrimId> to_visit{subgraph.standstill()};
@@ -379,9 +378,8 @@ void check_driving(const Subgraph& subgraph, std::size_t horizon_steps) {
     if (!is_reached[trim.index]) fail(trim, " cannot be reached from standstill");
     const std::size_t steps = subgraph.distance_to_standstill(trim);
     if (steps > horizon_steps) {
-      fail(trim, " needs " + std::to_string(steps) +
-                     " steps to standstill, must be <= the horizon of " +
-                     std::to_string(horizon_steps));
+      fail(trim, fmt::format(" needs {} steps to standstill, must be <= the horizon of {}", steps,
+                             horizon_steps));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "planner/automaton/trim_format.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc::automaton {
@@ -197,10 +198,8 @@ std::string list_of(const std::vector<T>& values, Print print) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-std::string number(TrimId trim) { return std::to_string(trim.index + 1); }
-
 std::string ends(const TrimPair& edge) {
-  return fmt::format("from: {}, to: {}", number(edge.from), number(edge.to));
+  return fmt::format("from: {}, to: {}", edge.from, edge.to);
 }
 
 }  // namespace
@@ -220,8 +219,8 @@ std::vector<SubgraphSpec> read_subgraphs(const Node& file, const SubgraphContext
 }
 
 std::string to_yaml(const SubgraphSpec& spec) {
-  std::string text = fmt::format("{{name: {}, labels: {}, trims: {}", quoted_yaml(spec.name),
-                                 list_of(spec.labels, quoted_yaml), list_of(spec.trims, number));
+  std::string text = fmt::format("{{name: {}, labels: {}, trims: [{}]", quoted_yaml(spec.name),
+                                 list_of(spec.labels, quoted_yaml), fmt::join(spec.trims, ", "));
   text += spec.rule == EdgeRule::kChain ? ", rule: chain" : ", rule: reachable";
   if (spec.max_speed_mps) text += ", max_speed_mps: " + shortest_text(*spec.max_speed_mps);
   if (!spec.off.empty()) {

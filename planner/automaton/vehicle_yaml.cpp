@@ -20,11 +20,11 @@ constexpr double kFastest_mps = 1000.0;
 constexpr double kStrongest = 1e4;  // m/s^2, rad/s, 1/m
 
 std::string fields(std::initializer_list<Field> list) {
-  std::string text;
+  std::vector<std::string> texts;
   for (const auto& [key, value] : list) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", key, shortest_text(value));
+    texts.push_back(fmt::format("{}: {}", key, shortest_text(value)));
   }
-  return text;
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 }  // namespace

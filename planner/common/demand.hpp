@@ -18,8 +18,8 @@
 /// types with a number called `value` (VehicleId, StepIndex). They are evaluated only if the
 /// condition is false.
 ///
-/// Plain assert remains where a check costs per vertex of a search: in the kernel, vectors,
-/// collision, preparation and data headers of planner/search/branch_and_bound.
+/// Plain assert remains where a check costs per vertex or per obstacle of a search: costs of edges,
+/// cost-to-go, prepared obstacles (planner/search).
 #define HLC_DEMAND(condition, ...)                                                       \
   do {                                                                                   \
     if (!(condition)) [[unlikely]] {                                                     \

@@ -78,7 +78,7 @@ Awaited ControlLoop::missing_of(MessageKind kind, const std::vector<VehicleId>& 
 }
 
 bool ControlLoop::needs_votes() const {
-  return controller_->options().strategies.commit.needs_votes;
+  return controller_->options().strategies.coordination.commit.needs_votes;
 }
 
 Awaited ControlLoop::awaited() const {

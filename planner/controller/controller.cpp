@@ -161,11 +161,13 @@ void Controller::couple(std::span<const coordination::Traffic> received) {
   std::vector<const coordination::Traffic*> traffic = neighbours_.received();
   traffic.push_back(&step_.traffic);
   const coordination::CouplingGraph graph(std::move(traffic));
-  step_.predecessors = coordination::predecessors(graph, options_.vehicle);
+  step_.predecessors =
+      coordination::predecessors(graph, options_.vehicle, options_.strategies.plans_before);
   step_.component = graph.component(options_.vehicle);
   step_.report.coupled = graph.neighbours(options_.vehicle);
   step_.report.missing = neighbours_.missing();
-  step_.report.level = coordination::computation_level(graph, options_.vehicle);
+  step_.report.level =
+      coordination::computation_level(graph, options_.vehicle, options_.strategies.plans_before);
   // A coupled vehicle that does not receive our messages may soon drive as if we stood for good
   // (missing.hpp).
   const bool is_silent_to_any = std::ranges::any_of(coupled(), [this](VehicleId other) {
@@ -225,7 +227,7 @@ std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
     coupled_vehicles.push_back(
         {.traffic = &neighbours_.traffic_of(other),
          .prediction = respected == step_.respected.end() ? nullptr : &respected->second,
-         .is_predecessor = coordination::plans_before(other, options_.vehicle)});
+         .is_predecessor = options_.strategies.plans_before(other, options_.vehicle)});
   }
   std::vector<MissingVehicle> missing;
   for (const VehicleId other : neighbours_.missing()) {
@@ -233,8 +235,8 @@ std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
         {.measured = step_.observation.measured(other),
          .stands_for_good = neighbours_.stands_for_good(other, options_.horizon_steps)});
   }
-  return controller::obstacles_m(coupled_vehicles, options_.strategies.coupled_obstacles, missing,
-                                 neighbours_.rules(), step_.observation.step,
+  return controller::obstacles_m(coupled_vehicles, options_.strategies.coordination.obstacles,
+                                 missing, neighbours_.rules(), step_.observation.step,
                                  options_.horizon_steps, subgraph().automaton().step_s);
 }
 
@@ -339,16 +341,16 @@ coordination::CommitVerdict Controller::decide(
   for (const VehicleId other : step_.component) {
     if (other != options_.vehicle) votes.push_back(find_message(outcomes, other, now));
   }
-  return options_.strategies.commit.decide({.planned = &step_.prediction.areas,
-                                            .coupled = coupled_areas,
-                                            .votes = votes,
-                                            .from = step_.next(),
-                                            .steps = options_.horizon_steps});
+  return options_.strategies.coordination.commit.decide({.planned = &step_.prediction.areas,
+                                                         .coupled = coupled_areas,
+                                                         .votes = votes,
+                                                         .from = step_.next(),
+                                                         .steps = options_.horizon_steps});
 }
 
 coordination::Report Controller::commit(std::span<const coordination::Prediction> predictions,
                                         std::span<const coordination::Outcome> outcomes) {
-  if (!options_.strategies.commit.needs_votes) note_awaited(predictions);
+  if (!options_.strategies.coordination.commit.needs_votes) note_awaited(predictions);
   if (!step_.candidate.plan) return finish(false, step_.obstacle);
   const coordination::CommitVerdict verdict = decide(predictions, outcomes);
   return finish(verdict == coordination::CommitVerdict::kInForce, reason_of(verdict));

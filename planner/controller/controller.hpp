@@ -49,6 +49,9 @@ class Controller {
   /// @throws std::invalid_argument as prepare_subgraph and make_search_engine
   Controller(ControllerOptions options, std::shared_ptr<const automaton::Subgraph> subgraph,
              std::vector<road::DrivableRoute> routes);
+  /// The same on a subgraph that was prepared for this horizon and search.
+  Controller(ControllerOptions options, PreparedSubgraph on,
+             std::vector<road::DrivableRoute> routes);
   /// With a single route.
   /// @param path      to be followed
   /// @param corridor  area in which the vehicle may drive
@@ -184,9 +187,6 @@ class Controller {
 
     [[nodiscard]] StepIndex next() const { return {observation.step.value + 1}; }
   };
-
-  Controller(ControllerOptions options, PreparedSubgraph on,
-             std::vector<road::DrivableRoute> routes);
 
   void report_plan_in_force(coordination::Report& report) const;
   [[nodiscard]] ConvexPolygon reachable_area_m() const;

@@ -8,6 +8,7 @@
 #include "planner/controller/obstacles.hpp"
 #include "planner/controller/plan_in_force.hpp"
 #include "planner/coordination/commit.hpp"
+#include "planner/coordination/priority.hpp"
 #include "planner/road/reference_points.hpp"
 #include "planner/search/horizon_problem.hpp"
 #include "planner/vehicle/lab_limits.hpp"
@@ -26,13 +27,25 @@ using IncumbentRule = std::vector<const automaton::Maneuver*> (*)(
 [[nodiscard]] std::vector<const automaton::Maneuver*> no_incumbent(
     const coordination::Plan& in_force, StepIndex next, std::size_t horizon_steps);
 
+/// When a new plan comes into force (commit.hpp), with the obstacles in planning that this relies
+/// on.
+struct CoordinationRule {
+  coordination::CommitRule commit;
+  CoupledObstacleRule obstacles;
+  friend bool operator==(const CoordinationRule&, const CoordinationRule&) = default;
+};
+
+inline constexpr CoordinationRule kStrictCoordination{.commit = coordination::kStrictCommit,
+                                                      .obstacles = &old_and_new_plans};
+inline constexpr CoordinationRule kAgreedCoordination{
+    .commit = coordination::kAgreedCommit, .obstacles = &predictions_and_standing_successors};
+
 /// The rules by which a controller plans and coordinates. A user's own rule is one function. All
 /// vehicles of a run need the same.
 struct ControllerStrategies {
-  coordination::CommitRule commit{coordination::kStrictCommit};
-  CoupledObstacleRule coupled_obstacles{&old_and_new_plans};  ///< must match `commit`
+  coordination::PriorityRule plans_before{&coordination::smaller_id_first};
+  CoordinationRule coordination{kStrictCoordination};
   IncumbentRule incumbent{&rest_of_plan_in_force};
-  /// nullptr: never.
   StandstillTimeoutRule standstill_timeout{&once_per_horizon};
   friend bool operator==(const ControllerStrategies&, const ControllerStrategies&) = default;
 };

@@ -8,6 +8,8 @@ bool once_per_horizon(std::uint64_t stood_steps, std::size_t horizon_steps) {
   return stood_steps % horizon_steps == 0;
 }
 
+bool no_timeout(std::uint64_t /*stood_steps*/, std::size_t /*horizon_steps*/) { return false; }
+
 void DrivableArea::update_drivable_area(const DrivableAreaInputs& inputs) {
   const bool has_timed_out = this->has_timed_out(inputs);
   const bool may_need_entry = entry_.is_possible && !entry_.area;
@@ -35,7 +37,6 @@ bool DrivableArea::has_timed_out(const DrivableAreaInputs& inputs) {
     stands_since_.reset();
     return false;
   }
-  if (timeout_ == nullptr) return false;
   stands_since_ = stands_since_.value_or(inputs.next);
   const std::uint64_t stood_steps = inputs.next.value - stands_since_->value;
   return stood_steps > 0 && timeout_(stood_steps, horizon_steps_);

@@ -15,6 +15,8 @@ using StandstillTimeoutRule = bool (*)(std::uint64_t stood_steps, std::size_t ho
 
 /// Once in every horizon.
 [[nodiscard]] bool once_per_horizon(std::uint64_t stood_steps, std::size_t horizon_steps);
+/// A vehicle that stands in its lanes stays in them.
+[[nodiscard]] bool no_timeout(std::uint64_t stood_steps, std::size_t horizon_steps);
 
 /// Inputs of `update_drivable_area`.
 struct DrivableAreaInputs {
@@ -31,7 +33,6 @@ struct DrivableAreaInputs {
 /// that stays in them leads on: see StandstillTimeoutRule. A value.
 class DrivableArea {
  public:
-  /// @param timeout  absent: a vehicle that stands in its lanes stays in them
   DrivableArea(StandstillTimeoutRule timeout, std::size_t horizon_steps)
       : timeout_(timeout), horizon_steps_(horizon_steps) {}
 

@@ -44,7 +44,7 @@ struct JointStepRules {
 /// One control step of controllers that receive each other's messages in memory, each with the same
 /// observation. Vehicles plan in the order of their priorities, so that none has to wait.
 ///
-/// @param loops  in the order of priorities (plans_before); each controller with a plan in force,
+/// @param loops  in the order of priorities (PriorityRule); each controller with a plan in force,
 /// none in a step
 /// @return their reports, in the same order
 std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops,

@@ -57,9 +57,10 @@ struct DeviationCheck {
 ///    everything they do from then on keeps clear.
 ///
 /// 5. A vehicle that is not seen is lost until it is seen on a plan, or re-anchored. No command is
-///    sent to it: it drives the last command that it has received to its end (kept alive by that
-///    command's copy), while another one would make it leave that plan on an unchecked path. If it
-///    is seen on an older plan, it has missed the newer ones: the older one is in force again.
+///    sent to it (in real time; in logical time none is lost): it drives the last command that it
+///    has received to its end (kept alive by that command's copy), while another one would make it
+///    leave that plan on an unchecked path. If it is seen on an older plan, it has missed the newer
+///    ones: the older one is in force again.
 ///
 /// Where a disturbed vehicle can be: commands may have been lost, so it may drive any plan that was
 /// in force while they were and has not run out since (replaced_plans.hpp), and drop its command

@@ -6,17 +6,17 @@
 
 namespace hlc::coordination {
 
-Priority constant_priority(VehicleId vehicle) { return {vehicle.value}; }
+bool smaller_id_first(VehicleId a, VehicleId b) { return a < b; }
 
-bool plans_before(VehicleId a, VehicleId b) { return constant_priority(a) < constant_priority(b); }
-
-std::vector<VehicleId> predecessors(const CouplingGraph& graph, VehicleId vehicle) {
+std::vector<VehicleId> predecessors(const CouplingGraph& graph, VehicleId vehicle,
+                                    PriorityRule plans_before) {
   std::vector<VehicleId> result = graph.neighbours(vehicle);
   std::erase_if(result, [&](VehicleId other) { return !plans_before(other, vehicle); });
   return result;
 }
 
-std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle) {
+std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle,
+                                PriorityRule plans_before) {
   // In planning order every predecessor's level is known before it is needed.
   std::vector<VehicleId> order = graph.vehicles();
   std::ranges::sort(order, plans_before);

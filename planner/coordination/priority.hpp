@@ -1,6 +1,5 @@
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -8,23 +7,21 @@
 
 namespace hlc::coordination {
 
-/// Smaller plans earlier. Priorities of two vehicles differ.
-struct Priority {
-  std::uint32_t value{};
-  friend auto operator<=>(const Priority&, const Priority&) = default;
-};
+/// True if a plans before b. A rule is one function, a strict total order of the vehicles, and the
+/// same for all vehicles of a run.
+using PriorityRule = bool (*)(VehicleId a, VehicleId b);
 
-/// Constant priorities: the vehicle with the smaller id plans earlier.
-[[nodiscard]] Priority constant_priority(VehicleId vehicle);
+/// Constant priorities.
+[[nodiscard]] bool smaller_id_first(VehicleId a, VehicleId b);
 
-[[nodiscard]] bool plans_before(VehicleId a, VehicleId b);
-
-/// Coupled vehicles that plan before `vehicle`, sorted: it waits for their predictions and respects
-/// them.
-[[nodiscard]] std::vector<VehicleId> predecessors(const CouplingGraph& graph, VehicleId vehicle);
+/// Coupled vehicles that plan before `vehicle`, sorted by id: it waits for their predictions and
+/// respects them.
+[[nodiscard]] std::vector<VehicleId> predecessors(const CouplingGraph& graph, VehicleId vehicle,
+                                                  PriorityRule plans_before);
 
 /// Computation level: 0 without predecessors, otherwise one more than the largest level among them.
 /// Vehicles of one level plan at the same time.
-[[nodiscard]] std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle);
+[[nodiscard]] std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle,
+                                              PriorityRule plans_before);
 
 }  // namespace hlc::coordination

@@ -1,5 +1,7 @@
 #include "planner/maneuver_design/automaton_builder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +11,7 @@
 
 #include "planner/automaton/maneuver_check.hpp"
 #include "planner/automaton/swept_area.hpp"
+#include "planner/automaton/trim_format.hpp"
 #include "planner/maneuver_design/criteria.hpp"
 #include "planner/maneuver_design/curvature_limit.hpp"
 #include "planner/maneuver_design/friction_circle.hpp"
@@ -82,11 +85,10 @@ std::string place_of(const TrimPair& edge, const AutomatonConfiguration& c) {
 [[noreturn]] void fail(const DesignTask& task, const AutomatonConfiguration& configuration,
                        const std::string& key, const std::string& allowed,
                        const std::string& reason) {
-  throw std::invalid_argument((key.empty() ? configuration.source : key + ", must be " + allowed) +
-                              (key.empty() ? ": " : "; ") + "maneuver " +
-                              std::to_string(task.edge.from.index + 1) + " -> " +
-                              std::to_string(task.edge.to.index + 1) + " (" +
-                              configuration.criteria[task.criterion].label + "): " + reason);
+  throw std::invalid_argument(
+      fmt::format("{}maneuver {} ({}): {}",
+                  key.empty() ? configuration.source + ": " : key + ", must be " + allowed + "; ",
+                  task.edge, configuration.criteria[task.criterion].label, reason));
 }
 
 automaton::UniversalAutomaton without_maneuvers(const AutomatonConfiguration& configuration) {
@@ -306,7 +308,7 @@ automaton::Maneuver design(const AutomatonConfiguration& configuration, const De
   if (const std::string fault = automaton::validate(maneuver, without_maneuvers(configuration));
       !fault.empty()) {
     fail(task, configuration, configuration.places.intervals, "more",
-         fault + " with " + std::to_string(configuration.intervals) + " intervals");
+         fmt::format("{} with {} intervals", fault, configuration.intervals));
   }
   return maneuver;
 }

@@ -1,5 +1,7 @@
 #include "planner/maneuver_design/criteria.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <stdexcept>
 
@@ -54,14 +56,11 @@ std::vector<std::string> criterion_names() {
 
 std::unique_ptr<RunningCost> make_criterion(const std::string& name,
                                             const vehicle::VehicleParameters& vehicle) {
-  std::string names;
   for (const Criterion& criterion : kCriteria) {
-    if (name == criterion.name) {
-      return criterion.make(vehicle);
-    }
-    names += std::string(names.empty() ? "" : ", ") + criterion.name;
+    if (name == criterion.name) return criterion.make(vehicle);
   }
-  throw std::invalid_argument("criterion = " + name + ", must be one of " + names);
+  throw std::invalid_argument(
+      fmt::format("criterion = {}, must be one of {}", name, fmt::join(criterion_names(), ", ")));
 }
 
 }  // namespace hlc::maneuver_design

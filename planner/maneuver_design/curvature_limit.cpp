@@ -1,6 +1,6 @@
 #include "planner/maneuver_design/curvature_limit.hpp"
 
-#include <sstream>
+#include <fmt/format.h>
 
 #include "planner/vehicle/path_curvature.hpp"
 
@@ -22,10 +22,8 @@ CostGradient CurvatureLimit::gradient(const vehicle::StateVector& x,
 }
 
 std::string CurvatureLimit::name() const {
-  std::ostringstream text;
-  text << "curvature of " << curvature_max_per_m_ << " 1/m to the "
-       << (side_ == Side::kLeft ? "left" : "right");
-  return text.str();
+  return fmt::format("curvature of {:g} 1/m to the {}", curvature_max_per_m_,
+                     side_ == Side::kLeft ? "left" : "right");
 }
 
 }  // namespace hlc::maneuver_design

@@ -1,9 +1,10 @@
 #include "planner/maneuver_design/feasibility.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "planner/maneuver_design/shooting.hpp"
 
@@ -23,14 +24,14 @@ Words words_of(const Channel& channel) {
 }
 
 /// True if each trim alone satisfies every g_i.
-bool trims_satisfy_path_constraints(const ManeuverProblem& problem, std::ostream& reason) {
+bool trims_satisfy_path_constraints(const ManeuverProblem& problem, std::string& reason) {
   bool good = true;
   for (const automaton::Trim& trim : {problem.from, problem.to}) {
     const vehicle::State state{Pose{}, trim.speed_mps, trim.steering_rad};
     for (const auto& constraint : problem.path_constraints) {
       if (constraint->value(vehicle::to_vector(state), vehicle::Input{}) > kPathTolerance) {
-        reason << "trim of speed " << trim.speed_mps << " m/s and steering " << trim.steering_rad
-               << " rad violates the " << constraint->name() << "; ";
+        reason += fmt::format("trim of speed {:g} m/s and steering {:g} rad violates the {}; ",
+                              trim.speed_mps, trim.steering_rad, constraint->name());
         good = false;
       }
     }
@@ -38,13 +39,14 @@ bool trims_satisfy_path_constraints(const ManeuverProblem& problem, std::ostream
   return good;
 }
 
-bool trims_are_within_bounds(const Channel& channel, std::ostream& reason) {
+bool trims_are_within_bounds(const Channel& channel, std::string& reason) {
   bool good = true;
   const Words words = words_of(channel);
   for (const double value : {channel.from, channel.to}) {
     if (value < channel.state_min || value > channel.state_max) {
-      reason << words.state << " of a trim = " << value << words.state_unit << ", must be in "
-             << channel.state_min << " ... " << channel.state_max << words.state_unit << "; ";
+      reason +=
+          fmt::format("{} of a trim = {:g}{}, must be in {:g} ... {:g}{}; ", words.state, value,
+                      words.state_unit, channel.state_min, channel.state_max, words.state_unit);
       good = false;
     }
   }
@@ -56,27 +58,26 @@ bool trims_are_within_bounds(const Channel& channel, std::ostream& reason) {
 Feasibility feasibility_of(const ManeuverProblem& problem) {
   const double longest_s =
       problem.free_duration ? problem.free_duration->max_s : problem.duration_s;
-  std::ostringstream reason;
   Feasibility result;
-  bool trims_are_good = trims_satisfy_path_constraints(problem, reason);
+  bool trims_are_good = trims_satisfy_path_constraints(problem, result.reason);
   for (const Channel& channel : {speed_channel(problem), steering_channel(problem)}) {
     const Words words = words_of(channel);
-    trims_are_good = trims_are_within_bounds(channel, reason) && trims_are_good;
+    trims_are_good = trims_are_within_bounds(channel, result.reason) && trims_are_good;
     const double shortest_s = std::abs(channel.change()) / channel.input_max;
     result.shortest_duration_s = std::max(result.shortest_duration_s, shortest_s);
     if (shortest_s > longest_s * (1.0 + kFeasibilityTolerance)) {
-      reason << words.state << " " << channel.from << " -> " << channel.to << words.state_unit
-             << " in " << longest_s << " s needs " << words.input << " "
-             << std::abs(channel.change()) / longest_s << words.input_unit
-             << ", must be <= " << channel.input_max << words.input_unit << "; ";
+      result.reason +=
+          fmt::format("{} {:g} -> {:g}{} in {:g} s needs {} {:g}{}, must be <= {:g}{}; ",
+                      words.state, channel.from, channel.to, words.state_unit, longest_s,
+                      words.input, std::abs(channel.change()) / longest_s, words.input_unit,
+                      channel.input_max, words.input_unit);
     }
   }
   if (!trims_are_good) {
     result.shortest_duration_s = std::numeric_limits<double>::infinity();
   }
-  if (!reason.str().empty()) {
-    reason << "shortest feasible duration " << result.shortest_duration_s << " s";
-    result.reason = reason.str();
+  if (!result.reason.empty()) {
+    result.reason += fmt::format("shortest feasible duration {:g} s", result.shortest_duration_s);
   }
   return result;
 }

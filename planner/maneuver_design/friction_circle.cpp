@@ -1,6 +1,6 @@
 #include "planner/maneuver_design/friction_circle.hpp"
 
-#include <sstream>
+#include <fmt/format.h>
 
 #include "planner/vehicle/lateral_acceleration.hpp"
 
@@ -25,9 +25,7 @@ CostGradient FrictionCircle::gradient(const vehicle::StateVector& x,
 }
 
 std::string FrictionCircle::name() const {
-  std::ostringstream text;
-  text << "friction circle of " << acceleration_max_mps2_ << " m/s^2";
-  return text.str();
+  return fmt::format("friction circle of {:g} m/s^2", acceleration_max_mps2_);
 }
 
 }  // namespace hlc::maneuver_design

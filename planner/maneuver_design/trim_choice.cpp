@@ -1,5 +1,7 @@
 #include "planner/maneuver_design/trim_choice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,8 +42,8 @@ std::vector<Point> scattered(const std::vector<Point>& points, std::size_t count
   while (centres.size() < count) {
     const Point& next = farthest(points, centres);
     if ((next - centres[nearest(next, centres)]).norm() == 0.0) {
-      throw std::invalid_argument("the drive has only " + std::to_string(centres.size()) +
-                                  " different ways of moving, needed " + std::to_string(count));
+      throw std::invalid_argument(fmt::format(
+          "the drive has only {} different ways of moving, needed {}", centres.size(), count));
     }
     centres.push_back(next);
   }

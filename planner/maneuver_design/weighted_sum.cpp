@@ -1,5 +1,7 @@
 #include "planner/maneuver_design/weighted_sum.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -39,14 +41,14 @@ bool WeightedSum::has_many_optima() const {
 WeightedSum normalised_sum(std::vector<WeightedCost> terms,
                            const std::vector<CriterionRange>& ranges) {
   if (terms.size() != ranges.size()) {
-    throw std::invalid_argument("ranges = " + std::to_string(ranges.size()) +
-                                ", must be one per criterion: " + std::to_string(terms.size()));
+    throw std::invalid_argument(
+        fmt::format("ranges = {}, must be one per criterion: {}", ranges.size(), terms.size()));
   }
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const double width = ranges[i].worst - ranges[i].best;
     if (!(width > 0.0)) {
-      throw std::invalid_argument("range of criterion " + std::to_string(i + 1) + " = " +
-                                  std::to_string(width) + ", must be > 0");
+      throw std::invalid_argument(
+          fmt::format("range of criterion {} = {:f}, must be > 0", i + 1, width));
     }
     terms[i].weight /= width;
   }

@@ -1,5 +1,7 @@
 #include "planner/plot/automaton_plot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -73,7 +75,7 @@ std::string automaton_plot(const automaton::AutomatonFile& file) {
   for (std::size_t i = 0; i < automaton.trims.size(); ++i) {
     const Eigen::Vector2d place = place_of(automaton.trims[i]);
     panel.marks.push_back({.at = place, .mark = Mark::kRing, .radius_px = kTrimRadius_px});
-    panel.texts.push_back({.at = place, .text = std::to_string(i + 1)});
+    panel.texts.push_back({.at = place, .text = fmt::to_string(i + 1)});
   }
   for (std::size_t i = 0; i < file.labels.size(); ++i) {
     panel.legend.push_back(
@@ -81,11 +83,10 @@ std::string automaton_plot(const automaton::AutomatonFile& file) {
   }
   panel.legend.push_back({.text = "trim", .mark = Mark::kRing, .radius_px = 5.0});
   panel.legend_corner = Corner::kBottomRight;
-  return svg_of("Universal automaton of " + file.configuration_file + ": " +
-                    std::to_string(automaton.trims.size()) + " trims, " +
-                    std::to_string(automaton.maneuvers.size() - automaton.trims.size()) +
-                    " maneuvers",
-                {panel}, 1, {.width_px = 900.0, .height_px = 620.0});
+  return svg_of(
+      fmt::format("Universal automaton of {}: {} trims, {} maneuvers", file.configuration_file,
+                  automaton.trims.size(), automaton.maneuvers.size() - automaton.trims.size()),
+      {panel}, 1, {.width_px = 900.0, .height_px = 620.0});
 }
 
 }  // namespace hlc::plot

@@ -1,7 +1,8 @@
 #include "planner/plot/pareto_plot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 
 #include "planner/plot/svg_plot.hpp"
@@ -10,12 +11,6 @@ namespace hlc::plot {
 namespace {
 
 using Eigen::Vector2d;
-
-std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%g", value);
-  return text;
-}
 
 std::string colour_of(std::size_t point, const maneuver_design::ParetoFront& front) {
   const std::size_t last = std::max<std::size_t>(front.points.size() - 1, 1);
@@ -116,12 +111,12 @@ std::string pareto_plot(const maneuver_design::ParetoFront& front,
   positions.y_label = "s_y [m]";
   positions.equal_scale = true;
   const auto& range = description.free_duration;
-  const std::string duration = range ? rounded(range->min_s) + " ... " + rounded(range->max_s)
-                                     : rounded(description.duration_s);
-  const std::string title =
-      "Pareto-optimal maneuvers from (" + rounded(description.from.speed_mps) + " m/s, " +
-      rounded(description.from.steering_rad) + " rad) to (" + rounded(description.to.speed_mps) +
-      " m/s, " + rounded(description.to.steering_rad) + " rad) in " + duration + " s";
+  const std::string duration = range ? fmt::format("{:g} ... {:g}", range->min_s, range->max_s)
+                                     : fmt::format("{:g}", description.duration_s);
+  const std::string title = fmt::format(
+      "Pareto-optimal maneuvers from ({:g} m/s, {:g} rad) to ({:g} m/s, {:g} rad) in {} s",
+      description.from.speed_mps, description.from.steering_rad, description.to.speed_mps,
+      description.to.steering_rad, duration);
   return svg_of(title,
                 {front_panel(front, weighted_sums, description), positions,
                  over_time(front, "Orientations", "psi [rad]",

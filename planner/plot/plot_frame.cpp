@@ -1,7 +1,8 @@
 #include "planner/plot/plot_frame.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "planner/plot/svg_elements.hpp"
@@ -31,9 +32,7 @@ Eigen::Vector2d widened(const Range& range) {
 
 /// A tick's number; rounding errors around 0 become 0.
 std::string tick_text(double value, double step) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", std::abs(value) < 1e-9 * step ? 0.0 : value);
-  return text;
+  return fmt::format("{:.6g}", std::abs(value) < 1e-9 * step ? 0.0 : value);
 }
 
 struct Tick {
@@ -98,7 +97,7 @@ std::string axes_of(const Frame& frame) {
   out += text_at({middle_px, corner.y() + size.y() + 36.0}, panel.x_label, "middle");
   const Vector2d left(corner.x() - 54.0, corner.y() + 0.5 * size.y());
   out += text_at(left, panel.y_label, "middle",
-                 " transform=\"rotate(-90 " + number(left.x()) + " " + number(left.y()) + ")\"");
+                 fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", left.x(), left.y()));
   return out;
 }
 

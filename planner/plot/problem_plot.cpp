@@ -1,7 +1,8 @@
 #include "planner/plot/problem_plot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "planner/geometry/footprint.hpp"
@@ -62,14 +63,10 @@ void add_plan(const scenario::ProblemFile& file, const search::SearchResult& res
 }
 
 std::string subtitle(const search::SearchResult& result) {
-  char text[96];
   if (result.status == search::SearchStatus::kFallback) {
-    std::snprintf(text, sizeof(text), "no plan (%s)", search::to_string(result.reason));
-  } else {
-    std::snprintf(text, sizeof(text), "plan: %s, cost %.4g m²", search::to_string(result.status),
-                  result.cost);
+    return fmt::format("no plan ({})", search::to_string(result.reason));
   }
-  return text;
+  return fmt::format("plan: {}, cost {:.4g} m²", search::to_string(result.status), result.cost);
 }
 
 }  // namespace
@@ -92,12 +89,12 @@ std::string problem_plot(const scenario::ProblemFile& file, const search::Search
       {.text = "reference point of each step", .colour = kReferenceColour, .mark = Mark::kRing},
       {.text = "footprint of the vehicle", .colour = kFootprintColour, .radius_px = 0.0},
       {.text = "swept area (dashed: obstacle), step 1", .colour = first, .radius_px = 0.0},
-      {.text = "the same, step " + std::to_string(problem.horizon_steps()),
+      {.text = fmt::format("the same, step {}", problem.horizon_steps()),
        .colour = last,
        .radius_px = 0.0},
       {.text = "boundary", .colour = kBoundaryColour, .radius_px = 0.0}};
-  const std::string title = "Planning problem: horizon " + std::to_string(problem.horizon_steps()) +
-                            ", subgraph " + file.subgraph->spec().name;
+  const std::string title = fmt::format("Planning problem: horizon {}, subgraph {}",
+                                        problem.horizon_steps(), file.subgraph->spec().name);
   return svg_of(title, {panel}, 1, {.width_px = 900.0, .height_px = 700.0});
 }
 

@@ -1,7 +1,8 @@
 #include "planner/plot/scenario_plot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "planner/geometry/footprint.hpp"
@@ -65,10 +66,9 @@ std::string scenario_plot(const scenario::Scenario& scenario,
     line.width_px = kThinnest_px;
     // The first paths are the widest and lie below; a few widths suffice.
     line.width_px += kThicker_px * static_cast<double>(std::min<std::size_t>(count - 1 - i, 3));
-    panel.legend.push_back(
-        {.text = "vehicle " + std::to_string(vehicle.id.value) + ": " + vehicle.name,
-         .colour = line.colour,
-         .radius_px = 0.0});
+    panel.legend.push_back({.text = fmt::format("vehicle {}: {}", vehicle.id.value, vehicle.name),
+                            .colour = line.colour,
+                            .radius_px = 0.0});
     add_direction(vehicle.path,
                   kBetweenArrows_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count),
                   panel);
@@ -83,7 +83,7 @@ std::string scenario_plot(const scenario::Scenario& scenario,
                                  .fill = car_colour(scenario, i),
                                  .stroke = "#000000"});
     panel.texts.push_back({.at = vehicle.start.position_m(),
-                           .text = std::to_string(vehicle.id.value),
+                           .text = fmt::to_string(vehicle.id.value),
                            .colour = "#ffffff"});
   }
   panel.legend_corner = Corner::kEmptiest;

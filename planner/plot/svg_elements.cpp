@@ -1,8 +1,7 @@
 #include "planner/plot/svg_elements.hpp"
 
+#include <fmt/format.h>
 #include <tinyxml2.h>
-
-#include <cstdio>
 
 namespace hlc::plot::svg {
 namespace {
@@ -17,38 +16,33 @@ std::string escaped(const std::string& text) {
 
 }  // namespace
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f", value);
-  return text;
-}
-
 std::string text_at(const Vector2d& at, const std::string& text, const std::string& anchor,
                     const std::string& more) {
-  return "<text x=\"" + number(at.x()) + "\" y=\"" + number(at.y()) + "\" text-anchor=\"" + anchor +
-         "\"" + more + ">" + escaped(text) + "</text>\n";
+  return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\"{}>{}</text>\n", at.x(),
+                     at.y(), anchor, more, escaped(text));
 }
 
 std::string segment(const Vector2d& from, const Vector2d& to, const std::string& style) {
-  return "<line x1=\"" + number(from.x()) + "\" y1=\"" + number(from.y()) + "\" x2=\"" +
-         number(to.x()) + "\" y2=\"" + number(to.y()) + "\" " + style + "/>\n";
+  return fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" {}/>\n",
+                     from.x(), from.y(), to.x(), to.y(), style);
 }
 
 std::string rectangle(const Vector2d& corner, const Vector2d& size, const std::string& style) {
-  return "<rect x=\"" + number(corner.x()) + "\" y=\"" + number(corner.y()) + "\" width=\"" +
-         number(size.x()) + "\" height=\"" + number(size.y()) + "\"" + style + "/>\n";
+  return fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"{}/>\n",
+                     corner.x(), corner.y(), size.x(), size.y(), style);
 }
 
 std::string mark_at(const Vector2d& at, Mark mark, const std::string& colour, double radius) {
   if (mark == Mark::kCross) {
-    const std::string style = "stroke=\"" + colour + "\" stroke-width=\"1.2\"";
+    const std::string style = fmt::format("stroke=\"{}\" stroke-width=\"1.2\"", colour);
     return segment(at + Vector2d(-radius, -radius), at + Vector2d(radius, radius), style) +
            segment(at + Vector2d(-radius, radius), at + Vector2d(radius, -radius), style);
   }
   const bool is_ring = mark == Mark::kRing;
-  return "<circle cx=\"" + number(at.x()) + "\" cy=\"" + number(at.y()) + "\" r=\"" +
-         number(radius) + "\" fill=\"" + (is_ring ? "none" : colour) + "\" stroke=\"" + colour +
-         "\" stroke-width=\"" + (is_ring ? "1.8" : "0.5") + "\"/>\n";
+  return fmt::format(
+      "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"{}\" "
+      "stroke-width=\"{}\"/>\n",
+      at.x(), at.y(), radius, is_ring ? "none" : colour, colour, is_ring ? "1.8" : "0.5");
 }
 
 std::string dashes_of(Stroke stroke) {

@@ -8,9 +8,6 @@
 /// The SVG elements of plots, at places in pixels (x to the right, y down).
 namespace hlc::plot::svg {
 
-/// With two decimals: a hundredth of a pixel.
-[[nodiscard]] std::string number(double value);
-
 /// @param anchor  start, middle or end: the part of the text at the place
 /// @param more    further attributes, beginning with a blank
 [[nodiscard]] std::string text_at(const Eigen::Vector2d& at, const std::string& text,

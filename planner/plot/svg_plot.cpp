@@ -1,9 +1,10 @@
 #include "planner/plot/svg_plot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "planner/plot/plot_frame.hpp"
 #include "planner/plot/plot_legend.hpp"
@@ -26,29 +27,29 @@ std::string points_of(const std::vector<Vector2d>& points, const Frame& frame) {
   std::string text;
   for (const Vector2d& point : points) {
     const Vector2d at = frame(point);
-    text += number(at.x()) + "," + number(at.y()) + " ";
+    text += fmt::format("{:.2f},{:.2f} ", at.x(), at.y());
   }
   return "points=\"" + text + "\"";
 }
 
 std::string area_of(const PlotArea& area, const Frame& frame) {
-  return "<polygon fill=\"" + area.fill + "\" stroke=\"" + area.stroke + "\" stroke-width=\"" +
-         number(area.stroke_width_px) + "\" " + points_of(area.points, frame) + "/>\n";
+  return fmt::format("<polygon fill=\"{}\" stroke=\"{}\" stroke-width=\"{:.2f}\" {}/>\n", area.fill,
+                     area.stroke, area.stroke_width_px, points_of(area.points, frame));
 }
 
 std::string line_of(const PlotLine& line, const Frame& frame) {
-  return "<polyline fill=\"none\" stroke=\"" + line.colour + "\" stroke-width=\"" +
-         number(line.width_px) + "\"" + dashes_of(line.stroke) + " " +
-         points_of(line.points, frame) + "/>\n";
+  return fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\"{} {}/>\n",
+                     line.colour, line.width_px, dashes_of(line.stroke),
+                     points_of(line.points, frame));
 }
 
 std::string head_of(const Vector2d& tip, const Vector2d& along, const std::string& colour) {
   const Vector2d across(-along.y(), along.x());
   const Vector2d a = tip - 8.0 * along + 3.2 * across;
   const Vector2d b = tip - 8.0 * along - 3.2 * across;
-  return "<polygon fill=\"" + colour + "\" points=\"" + number(tip.x()) + "," + number(tip.y()) +
-         " " + number(a.x()) + "," + number(a.y()) + " " + number(b.x()) + "," + number(b.y()) +
-         "\"/>\n";
+  return fmt::format(
+      "<polygon fill=\"{}\" points=\"{:.2f},{:.2f} {:.2f},{:.2f} {:.2f},{:.2f}\"/>\n", colour,
+      tip.x(), tip.y(), a.x(), a.y(), b.x(), b.y());
 }
 
 std::string arrow_of(const PlotArrow& arrow, const Frame& frame) {
@@ -89,10 +90,9 @@ std::string panel_at(const PlotPanel& panel, const Vector2d& corner_px, const Pl
       Vector2d(size.width_px - kLeft_px - kRight_px, size.height_px - kTop_px - kBottom_px));
   std::string out = "<g>\n" + axes_of(frame);
   if (panel.range) {
-    const std::string name = "axes" + std::to_string(number_of);
-    out += "<clipPath id=\"" + name + "\">" + rectangle(frame.corner_px, frame.size_px, "") +
-           "</clipPath>\n<g clip-path=\"url(#" + name + ")\">\n" + contents_as_svg(panel, frame) +
-           "</g>\n";
+    out += fmt::format(
+        "<clipPath id=\"axes{0}\">{1}</clipPath>\n<g clip-path=\"url(#axes{0})\">\n{2}</g>\n",
+        number_of, rectangle(frame.corner_px, frame.size_px, ""), contents_as_svg(panel, frame));
   } else {
     out += contents_as_svg(panel, frame);
   }
@@ -110,12 +110,11 @@ std::string svg_of(const std::string& title, const std::vector<PlotPanel>& panel
   const double width_px = panel.width_px * static_cast<double>(columns);
   const std::vector<std::vector<PlotLegend>> legend_rows = rows_of(legend, width_px);
   const double top_px = kTitleHeight_px + kLegendRow_px * static_cast<double>(legend_rows.size());
-  const std::string width = number(width_px);
-  const std::string height = number(top_px + panel.height_px * static_cast<double>(rows));
-  std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" +
-                    height + "\" viewBox=\"0 0 " + width + " " + height +
-                    "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
-                    "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.2f}\" height=\"{1:.2f}\" "
+      "viewBox=\"0 0 {0:.2f} {1:.2f}\" font-family=\"sans-serif\" font-size=\"12\">\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
+      width_px, top_px + panel.height_px * static_cast<double>(rows));
   out += text_at({0.5 * width_px, 26.0}, title, "middle", " font-size=\"16\"");
   for (std::size_t i = 0; i < legend_rows.size(); ++i) {
     out += legend_row(
@@ -133,10 +132,8 @@ std::string svg_of(const std::string& title, const std::vector<PlotPanel>& panel
 std::string red_to_blue(double share) {
   const double s = std::clamp(share, 0.0, 1.0);
   const auto byte = [](double value) { return static_cast<int>(std::lround(value)); };
-  char text[32];
-  std::snprintf(text, sizeof(text), "#%02x%02x%02x", byte(214.0 * (1.0 - s) + 20.0 * s),
-                byte(30.0 + 40.0 * s), byte(35.0 * (1.0 - s) + 215.0 * s));
-  return text;
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(214.0 * (1.0 - s) + 20.0 * s),
+                     byte(30.0 + 40.0 * s), byte(35.0 * (1.0 - s) + 215.0 * s));
 }
 
 std::string series_colour(std::size_t series) {

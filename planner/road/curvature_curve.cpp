@@ -1,5 +1,7 @@
 #include "planner/road/curvature_curve.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -19,8 +21,8 @@ CurvatureCurve::CurvatureCurve(const Pose& start, std::vector<Knot> knots)
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
     const double length_m = knots_[i + 1].s_m - knots_[i].s_m;
     if (!(length_m > 0.0)) {
-      throw std::invalid_argument("curvature curve: s of knot " + std::to_string(i + 1) +
-                                  " must be larger than that of the knot before");
+      throw std::invalid_argument(fmt::format(
+          "curvature curve: s of knot {} must be larger than that of the knot before", i + 1));
     }
     poses_.push_back(after_knot(i, length_m));
   }

@@ -1,5 +1,7 @@
 #include "planner/road/reference_path.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,8 +27,8 @@ double wrapped(double s_m, double length_m) {
 ReferencePath::ReferencePath(std::vector<Point> points_m, bool closed)
     : points_m_(std::move(points_m)), closed_(closed) {
   if (points_m_.size() < 2) {
-    throw std::invalid_argument("reference path: " + std::to_string(points_m_.size()) +
-                                " points, must be at least 2");
+    throw std::invalid_argument(
+        fmt::format("reference path: {} points, must be at least 2", points_m_.size()));
   }
   const std::size_t segments = closed_ ? points_m_.size() : points_m_.size() - 1;
   s_m_.reserve(segments + 1);
@@ -34,9 +36,10 @@ ReferencePath::ReferencePath(std::vector<Point> points_m, bool closed)
   for (std::size_t i = 0; i < segments; ++i) {
     const double length = (points_m_[(i + 1) % points_m_.size()] - points_m_[i]).norm();
     if (!(length > 0.0) || !std::isfinite(length)) {
-      throw std::invalid_argument("reference path: distance of point " + std::to_string(i) +
-                                  " to the next is " + std::to_string(length) +
-                                  " m, must be finite and larger than 0");
+      throw std::invalid_argument(
+          fmt::format("reference path: distance of point {} to the next is {:f} m, must be finite "
+                      "and larger than 0",
+                      i, length));
     }
     s_m_.push_back(s_m_.back() + length);
   }

@@ -1,6 +1,7 @@
 #include "planner/road/route.hpp"
 
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,16 +12,10 @@ namespace {
 /// Points closer than this coincide [m]; far smaller than any gap for a footprint.
 constexpr double kSamePoint_m = 1e-6;
 
-std::string in_millimetres(double distance_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", 1000.0 * distance_m);
-  return text;
-}
-
 const Lanelet& find_lanelet(const LaneletMap& map, LaneletId id) {
   const auto found = map.lanelets.find(id);
   if (found == map.lanelets.end()) {
-    throw std::runtime_error("route: lanelet " + std::to_string(id) + " is not in the map");
+    throw std::runtime_error(fmt::format("route: lanelet {} is not in the map", id));
   }
   return found->second;
 }
@@ -28,10 +23,10 @@ const Lanelet& find_lanelet(const LaneletMap& map, LaneletId id) {
 void check_joint(const Lanelet& from, const Lanelet& to, const Point& end_m, const Point& begin_m) {
   const double gap_m = (end_m - begin_m).norm();
   if (gap_m > kMaxJointGap_m) {
-    throw std::runtime_error("route: gap from the end of lanelet " + std::to_string(from.id) +
-                             " to the begin of lanelet " + std::to_string(to.id) + " = " +
-                             in_millimetres(gap_m) +
-                             ", must be <= " + in_millimetres(kMaxJointGap_m));
+    throw std::runtime_error(
+        fmt::format("route: gap from the end of lanelet {} to the begin of lanelet {} = {:.1f} mm, "
+                    "must be <= {:.1f} mm",
+                    from.id, to.id, 1000.0 * gap_m, 1000.0 * kMaxJointGap_m));
   }
 }
 
@@ -44,8 +39,8 @@ std::vector<Point> clean_centre_line(const Lanelet& lanelet) {
     }
   }
   if (points.size() < 2) {
-    throw std::runtime_error("route: lanelet " + std::to_string(lanelet.id) +
-                             " has no length, must be longer than 0");
+    throw std::runtime_error(
+        fmt::format("route: lanelet {} has no length, must be longer than 0", lanelet.id));
   }
   return points;
 }

@@ -30,7 +30,8 @@ Rollout::Rollout(std::vector<std::unique_ptr<controller::Controller>> controller
          .states = {controller::as_measured(id(controllers_[i]), standing,
                                             controller.subgraph().automaton())}}));
   }
-  std::ranges::sort(controllers_, coordination::plans_before, id);
+  HLC_DEMAND(!controllers_.empty());
+  std::ranges::sort(controllers_, controllers_.front()->options().strategies.plans_before, id);
   ++next_step_.value;
 }
 

@@ -25,34 +25,32 @@ constexpr double kSmallestArea_m2 = 1e-12;
 
 // ---- writing
 
-std::string number(double value) {
+using Json = nlohmann::ordered_json;
+
+/// JSON has no number that is not finite.
+double number(double value) {
   if (!std::isfinite(value)) {
     throw std::invalid_argument("a problem with a number that is not finite cannot be written");
   }
-  std::string text = shortest_text(value);
-  return text == "-0" ? "-0.0" : text;  // -0 reads back as the whole number 0
+  return value;
 }
 
-std::string point(const Point& at_m) {
-  return fmt::format("[{}, {}]", number(at_m.x()), number(at_m.y()));
-}
+Json point(const Point& at_m) { return Json::array({number(at_m.x()), number(at_m.y())}); }
 
 template <class Items, class Write>
-std::string list(const Items& items, const std::string& separator, Write write) {
-  std::string text;
-  for (const auto& item : items) text += (text.empty() ? "" : separator) + write(item);
-  return "[" + text + "]";
+Json list(const Items& items, Write write) {
+  Json values = Json::array();
+  for (const auto& item : items) values.push_back(write(item));
+  return values;
 }
 
-std::string polygon(const ConvexPolygon& area_m) { return list(area_m.vertices_m, ", ", point); }
-
-std::string step_obstacles(const std::vector<ConvexPolygon>& areas_m) {
-  std::vector<ConvexPolygon> there;
-  std::ranges::remove_copy_if(areas_m, std::back_inserter(there), &ConvexPolygon::empty);
-  return list(there, ", ", polygon);
+Json step_obstacles(const std::vector<ConvexPolygon>& areas_m) {
+  Json polygons = Json::array();
+  for (const ConvexPolygon& area_m : areas_m) {
+    if (!area_m.empty()) polygons.push_back(list(area_m.vertices_m, point));
+  }
+  return polygons;
 }
-
-std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 
 // ---- reading
 
@@ -164,15 +162,6 @@ std::vector<const automaton::Maneuver*> read_incumbent(const Node& root,
   return incumbent;
 }
 
-std::string weights_text(const std::vector<search::PlanningWeight>& weights) {
-  std::string text;
-  for (const auto& [criterion, weight_m2] : weights) {
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", quoted(criterion),
-                        shortest_text(weight_m2));
-  }
-  return "{" + text + "}";
-}
-
 search::SearchOptions read_search(const Node& node, const automaton::Subgraph& subgraph) {
   node.check_keys({"engine", "cost_to_go", "max_expansions", "criterion_weights"});
   search::SearchOptions search;
@@ -242,44 +231,41 @@ ProblemFile read_rest(const Node& root, std::filesystem::path automaton_file,
 
 std::string to_text(const ProblemFile& file) {
   const search::HorizonProblem& problem = file.problem;
-  std::string text = "{";
-  const auto add = [&text](const char* key, const std::string& value) {
-    text += (text.size() == 1 ? "\n  \"" : ",\n  \"") + std::string(key) + "\": " + value;
-  };
-  add("automaton", quoted(file.automaton_file.string()));
-  add("subgraph", quoted(file.subgraph->spec().name));
-  add("horizon_steps", fmt::to_string(problem.horizon_steps()));
-  add("step_s", number(file.subgraph->automaton().step_s));
-  add("start", fmt::format(R"({{"x": {}, "y": {}, "psi": {}, "trim": {}}})",
-                           number(problem.start.x_m), number(problem.start.y_m),
-                           number(problem.start.heading_rad), problem.start_trim.index + 1));
-  add("reference", list(problem.reference_m, ", ", point));
+  Json root{{"automaton", file.automaton_file.string()},
+            {"subgraph", file.subgraph->spec().name},
+            {"horizon_steps", problem.horizon_steps()},
+            {"step_s", number(file.subgraph->automaton().step_s)},
+            {"start",
+             {{"x", number(problem.start.x_m)},
+              {"y", number(problem.start.y_m)},
+              {"psi", number(problem.start.heading_rad)},
+              {"trim", problem.start_trim.index + 1}}},
+            {"reference", list(problem.reference_m, point)}};
   if (!problem.reference_speed_mps.empty()) {
-    add("reference_speed", list(problem.reference_speed_mps, ", ", number));
+    root["reference_speed"] = list(problem.reference_speed_mps, number);
   }
-  if (!problem.obstacles_m.empty()) {
-    add("obstacles", list(problem.obstacles_m, ",\n    ", step_obstacles));
-  }
+  if (!problem.obstacles_m.empty()) root["obstacles"] = list(problem.obstacles_m, step_obstacles);
   if (!problem.boundary_m.empty()) {
-    add("corridor", list(problem.boundary_m, ",\n    ", [](const Segment& segment) {
-          return fmt::format("[{}, {}]", point(segment.from_m), point(segment.to_m));
-        }));
+    root["corridor"] = list(problem.boundary_m, [](const Segment& segment) {
+      return Json::array({point(segment.from_m), point(segment.to_m)});
+    });
   }
-  if (problem.avoids_steering_limit) add("avoids_steering_limit", "true");
-  if (!problem.incumbent.empty()) {
-    add("incumbent", list(problem.incumbent, ", ", [](const automaton::Maneuver* maneuver) {
-          return fmt::format(R"({{"trim": {}, "label": {}}})", maneuver->to.index + 1,
-                             quoted(maneuver->label));
-        }));
+  if (problem.avoids_steering_limit) root["avoids_steering_limit"] = true;
+  for (const automaton::Maneuver* maneuver : problem.incumbent) {
+    root["incumbent"].push_back({{"trim", maneuver->to.index + 1}, {"label", maneuver->label}});
   }
-  const std::string weights =
-      file.search.criterion_weights.empty()
-          ? ""
-          : ", \"criterion_weights\": " + weights_text(file.search.criterion_weights);
-  add("search", fmt::format(R"({{"engine": "{}", "cost_to_go": "{}", "max_expansions": {}{}}})",
-                            engine_name(file.search), search::to_string(file.search.cost_to_go),
-                            file.search.max_expansions, weights));
-  return text + "\n}\n";
+  Json& options = root["search"];
+  options = {{"engine", engine_name(file.search)},
+             {"cost_to_go", search::to_string(file.search.cost_to_go)},
+             {"max_expansions", file.search.max_expansions}};
+  for (const auto& [criterion, weight_m2] : file.search.criterion_weights) {
+    options["criterion_weights"][criterion] = number(weight_m2);
+  }
+  std::vector<std::string> lines;  // a line per key: the lists of numbers are long
+  for (const auto& [key, value] : root.items()) {
+    lines.push_back(fmt::format("  \"{}\": {}", key, value.dump()));
+  }
+  return fmt::format("{{\n{}\n}}\n", fmt::join(lines, ",\n"));
 }
 
 void write_problem_file(const ProblemFile& file, const std::filesystem::path& path) {
@@ -327,9 +313,9 @@ void check_can_be_searched(const ProblemFile& file) {
   search::check_search_options(file.search);
   if (search::needs_reference_speeds(file.search.cost_to_go) &&
       file.problem.reference_speed_mps.empty()) {
-    throw std::invalid_argument(
-        std::string("reference_speed is missing, must be one per step: the cost-to-go ") +
-        search::to_string(file.search.cost_to_go) + " needs them");
+    throw std::invalid_argument(fmt::format(
+        "reference_speed is missing, must be one per step: the cost-to-go {} needs them",
+        search::to_string(file.search.cost_to_go)));
   }
 }
 

@@ -17,10 +17,9 @@ Profile profile_from_name(const std::string& name) {
             .reference_rule = road::half_speed_last,
             .engine = search::Engine::kBestFirst,
             .cost_to_go = search::CostToGo::kReferenceSpeed,
-            .strategies = {.commit = coordination::kAgreedCommit,
-                           .coupled_obstacles = &controller::predictions_and_standing_successors,
+            .strategies = {.coordination = controller::kAgreedCoordination,
                            .incumbent = &controller::no_incumbent,
-                           .standstill_timeout = nullptr}};
+                           .standstill_timeout = &controller::no_timeout}};
   }
   throw std::invalid_argument("--profile = " + name + ", must be one of default, 2022");
 }

@@ -8,8 +8,8 @@
 
 namespace hlc::scenario {
 
-/// A named set of rules for planning and coordination. A profile is data: no code depends on its
-/// name.
+/// A named set of rules for planning and coordination. A profile is data: planning and coordination
+/// do not depend on its name.
 struct Profile {
   std::string name;
   road::ReferenceRule reference_rule{road::half_speed_last};
@@ -23,9 +23,10 @@ struct Profile {
 /// | reference points          | half_speed_last                 | half_speed_last              |
 /// | engine                    | branch_and_bound                | best_first                   |
 /// | cost-to-go                | admissible: plans are optimal   | the authors', inadmissible   |
-/// | new plans come into force | strict: safe whatever is lost   | agreed: as the authors did   |
-/// | coupled vehicles, as      | old and new plans               | predictions, standing cars   |
-/// | obstacles                 |                                 |                              |
+/// | priorities                | smaller id first                | smaller id first             |
+/// | coordination: new plans   | strict: safe whatever is lost   | agreed: as the authors did   |
+/// | come into force, and      |                                 |                              |
+/// | obstacles                 | old and new plans               | predictions, standing cars   |
 /// | incumbent                 | rest of the plan in force       | none: the paper's counts     |
 /// | standstill timeout        | once per horizon                | none: the paper's drives     |
 ///

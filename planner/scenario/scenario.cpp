@@ -43,7 +43,16 @@ const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id) {
                                           fmt::join(known, ", ")));
 }
 
+controller::PreparedSubgraph prepare_subgraph_of(const Scenario& scenario) {
+  return controller::prepare_subgraph(scenario.subgraph, scenario.horizon_steps, scenario.search);
+}
+
 std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario, VehicleId id) {
+  return make_controller(scenario, id, prepare_subgraph_of(scenario));
+}
+
+std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario, VehicleId id,
+                                                        controller::PreparedSubgraph on) {
   std::vector<road::DrivableRoute> routes = scenario.routes;
   const auto named = std::ranges::find(scenario.vehicles, id, &ScenarioVehicle::id);
   if (named != scenario.vehicles.end()) {
@@ -57,7 +66,7 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                                     .strategies = scenario.profile.strategies,
                                     .search = scenario.search,
                                     .lab = scenario.lab},
-      scenario.subgraph, std::move(routes));
+      std::move(on), std::move(routes));
 }
 
 Pose measured_start(const Scenario& scenario, const ScenarioVehicle& vehicle) {

@@ -94,6 +94,10 @@ inline constexpr std::size_t kMaxCarsOnCircle = 20;
 /// takes the scenario's route that fits best at its pose.
 [[nodiscard]] std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario,
                                                                       VehicleId id);
+/// The same on the scenario's subgraph, prepared once for many controllers.
+[[nodiscard]] std::unique_ptr<controller::Controller> make_controller(
+    const Scenario& scenario, VehicleId id, controller::PreparedSubgraph on);
+[[nodiscard]] controller::PreparedSubgraph prepare_subgraph_of(const Scenario& scenario);
 
 /// Yaw of a vehicle that stands at a planned pose (the lab's vehicles point slightly aside of their
 /// course).

@@ -1,8 +1,9 @@
 #include "planner/search/edge_costs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -16,22 +17,18 @@ const CriterionValue* find_value(const automaton::Maneuver& maneuver,
   return found == maneuver.criteria.end() ? nullptr : &*found;
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none, the automaton holds no criteria" : text;
-}
-
 void check_weights(const std::vector<PlanningWeight>& weights,
                    const std::vector<std::string>& known) {
   for (const auto& [criterion, weight_m2] : weights) {
     if (std::ranges::find(known, criterion) == known.end()) {
-      throw std::invalid_argument("criterion_weights: " + criterion + ", must be one of " +
-                                  joined(known));
+      const std::string names = known.empty() ? "none, the automaton holds no criteria"
+                                              : fmt::format("{}", fmt::join(known, ", "));
+      throw std::invalid_argument(
+          fmt::format("criterion_weights: {}, must be one of {}", criterion, names));
     }
     if (!(weight_m2 >= 0.0 && weight_m2 <= SearchOptions::kMostWeight_m2)) {
-      throw std::invalid_argument("criterion_weights: " + criterion + " = " +
-                                  std::to_string(weight_m2) + ", must be in 0 ... 1e9");
+      throw std::invalid_argument(
+          fmt::format("criterion_weights: {} = {:f}, must be in 0 ... 1e9", criterion, weight_m2));
     }
   }
 }

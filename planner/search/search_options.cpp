@@ -1,5 +1,7 @@
 #include "planner/search/search_options.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <stdexcept>
 
@@ -12,7 +14,7 @@ Enum from_name(const std::string& name, const std::array<Enum, n>& all, const ch
   for (const Enum value : all) {
     if (name == to_string(value)) return value;
   }
-  throw std::invalid_argument(std::string(what) + " = " + name + ", must be one of " + allowed);
+  throw std::invalid_argument(fmt::format("{} = {}, must be one of {}", what, name, allowed));
 }
 
 }  // namespace
@@ -82,9 +84,10 @@ CostToGo cost_to_go_from_name(const std::string& name) {
 
 void check_search_options(const SearchOptions& options) {
   if (options.engine == Engine::kBranchAndBound && options.cost_to_go != CostToGo::kReachable) {
-    throw std::invalid_argument(std::string("engine = ") + to_string(options.engine) +
-                                " with cost-to-go " + to_string(options.cost_to_go) +
-                                ", requires cost-to-go reachable; any other requires best_first");
+    throw std::invalid_argument(
+        fmt::format("engine = {} with cost-to-go {}, requires cost-to-go reachable; any other "
+                    "requires best_first",
+                    to_string(options.engine), to_string(options.cost_to_go)));
   }
   if (options.max_expansions == 0) {
     throw std::invalid_argument("max_expansions = 0, must be >= 1");

@@ -1,8 +1,9 @@
 #include "planner/vehicle/lab_limits.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "planner/common/demand.hpp"
 
@@ -105,35 +106,29 @@ std::optional<FoundFault> trajectory_fault(std::span<const TimedPoint> points,
 }
 
 std::string to_text(const FoundFault& found, const LabLimits& limits) {
-  std::ostringstream text;
   switch (found.fault) {
     case TrajectoryFault::kNotFinite:
-      text << "a coordinate, velocity or time is not a finite number";
-      break;
+      return "a coordinate, velocity or time is not a finite number";
     case TrajectoryFault::kTimesNotIncreasing:
-      text << "times of the points do not increase strictly";
-      break;
+      return "times of the points do not increase strictly";
     case TrajectoryFault::kNotStanding:
-      text << "speed at the end = " << found.value << " m/s, must be 0";
-      break;
+      return fmt::format("speed at the end = {:g} m/s, must be 0", found.value);
     case TrajectoryFault::kOutside:
-      text << "coordinate = " << found.value << " m, must be in " << limits.x_min_m << " ... "
-           << limits.x_max_m << " in x, " << limits.y_min_m << " ... " << limits.y_max_m << " in y";
-      break;
+      return fmt::format("coordinate = {:g} m, must be in {:g} ... {:g} in x, {:g} ... {:g} in y",
+                         found.value, limits.x_min_m, limits.x_max_m, limits.y_min_m,
+                         limits.y_max_m);
     case TrajectoryFault::kMismatch:
-      text << "velocity by positions and by velocities differ by " << found.value
-           << " m/s, must be <= " << limits.velocity_mismatch_max_mps;
-      break;
+      return fmt::format(
+          "velocity by positions and by velocities differ by {:g} m/s, must be <= {:g}",
+          found.value, limits.velocity_mismatch_max_mps);
     case TrajectoryFault::kAcceleration:
-      text << "acceleration = " << found.value
-           << " m/s^2, must be <= " << limits.acceleration_max_mps2;
-      break;
+      return fmt::format("acceleration = {:g} m/s^2, must be <= {:g}", found.value,
+                         limits.acceleration_max_mps2);
     case TrajectoryFault::kCurvature:
-      text << "curvature = " << found.value << " 1/m, must be in " << limits.curvature_min_per_m
-           << " ... " << limits.curvature_max_per_m;
-      break;
+      return fmt::format("curvature = {:g} 1/m, must be in {:g} ... {:g}", found.value,
+                         limits.curvature_min_per_m, limits.curvature_max_per_m);
   }
-  return text.str();
+  return "unknown";
 }
 
 }  // namespace hlc::vehicle

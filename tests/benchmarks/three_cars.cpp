@@ -37,8 +37,7 @@ std::unique_ptr<controller::Controller> controller_of(
           .horizon_steps = scenario.horizon_steps,
           .reference_speed_mps = scenario.reference_speed_mps,
           .reference_rule = road::mean_speed_first,
-          .strategies = {.commit = scenario.profile.strategies.commit,
-                         .coupled_obstacles = scenario.profile.strategies.coupled_obstacles},
+          .strategies = {.coordination = scenario.profile.strategies.coordination},
           .search = {.engine = search::Engine::kBestFirst}},
       subgraph, vehicle.path, lanes == Lanes::kNone ? road::Corridor{} : vehicle.corridor);
 }

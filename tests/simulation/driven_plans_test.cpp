@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "planner/geometry/footprint.hpp"
 
 namespace hlc::closed_loop {
@@ -20,12 +22,18 @@ coordination::OccupiedAreas area_at(std::uint64_t first, double x_m) {
 class Driven : public testing::Test {
  protected:
   void agree(VehicleId vehicle, std::uint64_t step, double x_m) {
-    driven_.published({.vehicle = vehicle, .step = {step}});
+    publish(vehicle, step);
+    agreed_m_[vehicle] = x_m;
     driven_.predicted({.vehicle = vehicle, .step = {step}, .areas = area_at(step + 1, x_m)});
-    driven_.commanded(command(vehicle, step));
+    driven_.commanded(command(vehicle, step), step * kDrivenPeriod + 1);
     const coordination::Plan plan({step}, {.x_m = x_m}, standstill_);
     driven_.reported(
         {.vehicle = vehicle, .step = {step}, .status = coordination::StepStatus::kPlanned}, &plan);
+  }
+  /// The plan in force: to stand.
+  void publish(VehicleId vehicle, std::uint64_t step) {
+    driven_.published(
+        {.vehicle = vehicle, .step = {step}, .running = area_at(step, agreed_m_[vehicle])});
   }
   static TrajectoryCommand command(VehicleId vehicle, std::uint64_t step) {
     return {.vehicle_id = vehicle.value,
@@ -39,6 +47,7 @@ class Driven : public testing::Test {
                    violations_);
   }
 
+  std::map<VehicleId, double> agreed_m_;
   automaton::Maneuver standstill_;
   DrivenPlans driven_{8, kDrivenPeriod};
   Violations violations_;
@@ -74,7 +83,7 @@ TEST_F(Driven, AVehicleIsOutOfReachOnceItsControllerIsMistakenAboutIt) {
   agree(kFirst, 11, 1.0);
   drive(kFirst, 11, 10);
   EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod));
-  driven_.published({.vehicle = kFirst, .step = {12}});
+  publish(kFirst, 12);
   drive(kFirst, 12, 10);
   EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod));
   drive(kFirst, 13, 10);
@@ -86,6 +95,54 @@ TEST_F(Driven, AVehicleIsOutOfReachOnceItsControllerIsMistakenAboutIt) {
   receive(kFirst, 11);
   drive(kFirst, 13, 11);
   EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 13 * kDrivenPeriod + 2 * DrivenPlans::kAfterwards));
+}
+
+TEST_F(Driven, AVehicleThatChangesOverLateAndIsThenSeenOffItsPlanIsOutOfReach) {
+  for (const bool is_seen_off : {false, true}) {
+    SCOPED_TRACE(is_seen_off);
+    driven_ = DrivenPlans{8, kDrivenPeriod};
+    agree(kFirst, 10, 0.0);
+    receive(kFirst, 10);
+    drive(kFirst, 10, 10);
+    agree(kFirst, 11, 1.0);
+    drive(kFirst, 11, 10);
+    receive(kFirst, 11);
+    drive(kFirst, 12, 11);
+    driven_.reported({.vehicle = kFirst,
+                      .step = {13},
+                      .reason = is_seen_off ? coordination::FallbackReason::kDeviation
+                                            : coordination::FallbackReason::kMissing},
+                     nullptr);
+    EXPECT_EQ(driven_.is_out_of_reach(kFirst, 13 * kDrivenPeriod), is_seen_off);
+  }
+}
+
+TEST_F(Driven, AVehicleThatChangesOverInTimeIsInReachEvenIfItIsSeenOffItsPlan) {
+  for (std::uint64_t step = 10; step < 12; ++step) {
+    agree(kFirst, step, 0.1 * static_cast<double>(step));
+    receive(kFirst, step);
+    drive(kFirst, step, step);
+  }
+  driven_.reported(
+      {.vehicle = kFirst, .step = {12}, .reason = coordination::FallbackReason::kDeviation},
+      nullptr);
+  EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod));
+}
+
+TEST_F(Driven, AfterItsPlanAVehicleStandsWhereItsControllerAnnounces) {
+  agree(kFirst, 10, 0.0);
+  receive(kFirst, 10);
+  drive(kFirst, 10, 10);
+  driven_.published({.vehicle = kFirst, .step = {12}, .running = area_at(12, 1.0)});
+  driven_.reported({.vehicle = kFirst, .step = {12}}, nullptr);
+  agree(kSecond, 12, 0.0);
+  receive(kSecond, 12);
+  drive(kSecond, 12, 12);
+  EXPECT_TRUE(violations_.empty());
+  agree(kSecond, 13, 1.0);
+  receive(kSecond, 13);
+  drive(kSecond, 13, 13);
+  EXPECT_EQ(violations_.size(), 1U);
 }
 
 TEST_F(Driven, AVehicleFollowsTheNewestCommandThatItHas) {

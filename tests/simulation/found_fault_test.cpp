@@ -75,6 +75,39 @@ TEST(FoundFault, Seed5515AVehicleThatMissesCommandsButIsSeenIsOutOfReach) {
   EXPECT_GT(result.unreachable, 0U);
 }
 
+/// One command is lost and the next one arrives: the vehicle changes over to the plan late, on a
+/// way that nobody knew, overshoots, and touches one that stands beside the plan (the same limit).
+TEST(FoundFault, Seed101734AVehicleThatChangesOverLateIsOutOfReach) {
+  const FaultRunResult result =
+      run(paper(7, 0x71cd2f5d733d0ce6), {.seed = 101734, .transport = Transport::kLoopback},
+          {{.kind = FaultKind::kWithhold, .end = 14'000 * kMs, .share = 0.20152936719888187}});
+  EXPECT_GT(result.unreachable, 0U);
+}
+
+/// A vehicle that stands beside its plan is anchored there and plans anew in the same step. The
+/// others keep clear of where it stands, not of where it was to stand.
+TEST(FoundFault, Seed101508AVehicleThatStandsBesideItsPlanIsWhereItsControllerSays) {
+  run(circle(7), {.seed = 101508, .transport = Transport::kLab},
+      {{.kind = FaultKind::kWithhold, .end = 7'000 * kMs, .share = 0.25177121723015788}});
+}
+
+/// A vehicle is anchored where it stands, in the margin of another one: nobody has agreed to that.
+TEST(FoundFault, Seed100975AVehicleThatIsAnchoredHasAgreedToNothing) {
+  run(circle(7), {.seed = 100975, .transport = Transport::kLoopback},
+      {{.kind = FaultKind::kReorder,
+        .begin = 3'445'834'753,
+        .end = 5'845'236'446,
+        .process = middleware_name(4),
+        .share = 1.0,
+        .amount = 213'832'250},
+       {.kind = FaultKind::kReorder,
+        .begin = 4'080'687'930,
+        .end = 5'284'683'608,
+        .process = controller_name(1),
+        .share = 0.92571817902456266,
+        .amount = 180'539'902}});
+}
+
 /// A controller that starts in the middle of a run in logical time commanded its vehicle to stand
 /// where it drove.
 TEST(FoundFault, Seed1178InLogicalTimeARestartedControllerLeavesAMovingVehicleAlone) {

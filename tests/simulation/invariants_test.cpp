@@ -123,6 +123,24 @@ TEST(Plans, OfWhoIsOffItsPlanOrSilentForLongAreLeftOut) {
   }
 }
 
+TEST(Plans, OfWhoIsSilentAndHasNeverReceivedItsPlanAreLeftOut) {
+  for (const bool is_received : {true, false}) {
+    for (const bool is_silent : {true, false}) {
+      PlansCheck check(8);
+      Violations violations;
+      check.predicted(standing_at(kOne, 10, 0.0));
+      check.reported(report_of(kOne, 10, coordination::StepStatus::kPlanned), nullptr, 0,
+                     violations);
+      check.received(kOne, is_received);
+      const std::uint64_t step = is_silent ? 12 : 11;
+      check.predicted(standing_at(kTwo, step, 0.1));
+      check.reported(report_of(kTwo, step, coordination::StepStatus::kPlanned), nullptr, 0,
+                     violations);
+      EXPECT_EQ(violations.empty(), is_silent && !is_received);
+    }
+  }
+}
+
 TEST(Reasons, WhoEndsBadlyHasComplained) {
   ReasonsCheck check;
   Violations violations;

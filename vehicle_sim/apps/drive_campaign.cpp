@@ -1,5 +1,7 @@
 #include "vehicle_sim/apps/drive_campaign.hpp"
 
+#include <fmt/format.h>
+
 #include <exception>
 #include <optional>
 #include <string>
@@ -12,7 +14,7 @@ namespace hlc::apps {
 namespace {
 
 std::filesystem::path folder_of_run(const EvaluationFiles& files, std::size_t run) {
-  return files.folder() / "runs" / std::to_string(run);
+  return files.folder() / "runs" / fmt::to_string(run);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "vehicle_sim/apps/drive_recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
-#include <limits>
-#include <locale>
 #include <stdexcept>
 
 #include "hlc_bridge/record/drive_file.hpp"
@@ -26,8 +26,6 @@ bool ends_with_a_row(const std::string& file) {
 DriveRecorder::DriveRecorder(const std::string& file, bool append) : file_(file) {
   const bool goes_on = append && ends_with_a_row(file);
   stream_.open(file, goes_on ? std::ios::app : std::ios::trunc);
-  stream_.imbue(std::locale::classic());
-  stream_.precision(std::numeric_limits<double>::max_digits10);
   if (!goes_on) stream_ << record::kDriveHeading << '\n' << std::flush;
   check();
 }
@@ -37,9 +35,9 @@ void DriveRecorder::check() const {
 }
 
 void DriveRecorder::write(const result::DrivenSample& sample) {
-  stream_ << sample.t << ',' << sample.pose.x_m << ',' << sample.pose.y_m << ','
-          << sample.pose.heading_rad << ',' << sample.speed_mps << ',' << sample.throttle << ','
-          << sample.steering << ',' << sample.command_create << '\n'
+  stream_ << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{}\n", sample.t,
+                         sample.pose.x_m, sample.pose.y_m, sample.pose.heading_rad,
+                         sample.speed_mps, sample.throttle, sample.steering, sample.command_create)
           << std::flush;
   check();
 }

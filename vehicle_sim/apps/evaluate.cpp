@@ -170,9 +170,7 @@ void declare_campaign(CLI::App& app, Choices& choices) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--scenario_folder", choices.scenario_folder)->capture_default_str();
-  app.add_option("--profile", choices.plan.profiles, "rules: default, 2022, or both")
-      ->delimiter(',')
-      ->capture_default_str();
+  hlc::apps::declare_profile_flag(app, choices.plan.profiles)->delimiter(',');
   app.add_option("--subgraphs", choices.plan.subgraphs,
                  "fixed ones of the automaton, as A,B,C,D, driven without a policy; default: the "
                  "scenario's own")

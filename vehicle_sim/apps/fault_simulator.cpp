@@ -1,9 +1,10 @@
 // Drives whole runs in memory under faults (dead and frozen processes, lost messages, clock errors)
 // and checks the invariants that must hold under any fault.
-#include <unistd.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -16,6 +17,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/parallel.hpp"
+#include "planner/apps/progress_line.hpp"
 #include "vehicle_sim/closed_loop/fault_campaign.hpp"
 
 namespace {
@@ -48,45 +50,6 @@ std::vector<std::string> fault_names() {
   return names;
 }
 
-/// "1 h 02 min", "3 min 10 s", "12 s".
-std::string duration_text(double seconds) {
-  const auto whole = static_cast<long long>(seconds + 0.5);
-  char text[64];
-  if (whole >= 3600) {
-    std::snprintf(text, sizeof text, "%lld h %02lld min", whole / 3600, whole % 3600 / 60);
-  } else if (whole >= 60) {
-    std::snprintf(text, sizeof text, "%lld min %02lld s", whole / 60, whole % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%lld s", whole);
-  }
-  return text;
-}
-
-/// On a terminal a single updated line, with the remaining time.
-class Progress {
- public:
-  explicit Progress(std::uint64_t runs) : runs_(runs) {}
-  ~Progress() {
-    if (is_shown_) std::fprintf(stderr, "\r\033[K");
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  void show(std::uint64_t done, std::uint64_t failed) const {
-    if (!is_shown_) return;
-    const double passed_s = std::chrono::duration<double>(Clock::now() - begin_).count();
-    const double left_s = passed_s / static_cast<double>(done) * static_cast<double>(runs_ - done);
-    std::fprintf(stderr, "\r\033[Krun %llu of %llu, %llu failed, %s left",
-                 static_cast<unsigned long long>(done), static_cast<unsigned long long>(runs_),
-                 static_cast<unsigned long long>(failed), duration_text(left_s).c_str());
-  }
-
- private:
-  std::uint64_t runs_;
-  bool is_shown_{isatty(STDERR_FILENO) == 1};
-  Clock::time_point begin_{Clock::now()};
-};
-
 void print_violations(const FaultRunResult& result) {
   for (const auto& violation : result.violations) {
     std::printf("  %9.3f s  %s: %s\n", 1e-9 * static_cast<double>(violation.at),
@@ -110,9 +73,7 @@ int replay(const Choices& choices) {
   const FaultRunResult result =
       campaign.run(the_case, [&](hlc::Nanoseconds at, const std::string& line) {
         if (!file.is_open()) return;
-        char time[32];
-        std::snprintf(time, sizeof time, "%12.6f ", 1e-9 * static_cast<double>(at));
-        file << time << line << '\n';
+        file << fmt::format("{:12.6f} {}\n", 1e-9 * static_cast<double>(at), line);
       });
   print_violations(result);
   if (file.is_open() && !file.flush()) {
@@ -129,27 +90,36 @@ void print_failure(const FaultCampaign& campaign, std::uint64_t seed, const std:
   std::printf("seed %llu fails; with the fewest faults:\n%s", static_cast<unsigned long long>(seed),
               describe(shrunk.the_case).c_str());
   print_violations(shrunk.result);
-  std::string keep;
-  for (const std::size_t index : shrunk.kept) {
-    keep += (keep.empty() ? " --keep " : ",") + std::to_string(index);
-  }
-  if (shrunk.kept.empty()) keep = " --keep none";
-  std::printf("  again: fault_simulator%s --replay %llu%s --trace trace.txt\n", flags.c_str(),
-              static_cast<unsigned long long>(seed), keep.c_str());
+  const std::string kept =
+      shrunk.kept.empty() ? "none" : fmt::format("{}", fmt::join(shrunk.kept, ","));
+  fmt::print("  again: fault_simulator{} --replay {} --keep {} --trace trace.txt\n", flags, seed,
+             kept);
+}
+
+thread_local std::uint64_t seed_at_work = 0;
+
+/// An assertion of the code under test failed, in the thread that runs this seed.
+void report_abort(int /*signal*/) {
+  char text[64];
+  const int size = std::snprintf(text, sizeof text, "seed %llu fails: abort: --replay it\n",
+                                 static_cast<unsigned long long>(seed_at_work));
+  if (write(STDOUT_FILENO, text, static_cast<std::size_t>(size)) < 0) return;
 }
 
 int campaign(const Choices& choices, const std::string& flags) {
+  static_cast<void>(std::signal(SIGABRT, report_abort));
   const FaultCampaign campaign(choices.campaign);
   hlc::closed_loop::FaultTotals totals;
   std::vector<std::uint64_t> failed;
   std::mutex mutex;
   const Clock::time_point begin = Clock::now();
   {
-    const Progress progress(choices.runs);
+    const hlc::apps::ProgressLine progress("run", choices.runs);
     hlc::apps::run_parallel(
         choices.runs, choices.jobs,
         [&](std::size_t i) {
           const std::uint64_t seed = choices.seed + i;
+          seed_at_work = seed;
           FaultRunResult result = campaign.run(campaign.draw(seed));
           // Some seeds run twice: the same seed must give the same hash.
           if (i % kTwice == 0 && campaign.run(campaign.draw(seed)).hash != result.hash) {
@@ -166,7 +136,7 @@ int campaign(const Choices& choices, const std::string& flags) {
         },
         [&](std::size_t done) {
           const std::lock_guard lock(mutex);
-          progress.show(done, failed.size());
+          progress.show(done, fmt::format(", {} failed", failed.size()));
         });
   }
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -175,11 +145,8 @@ int campaign(const Choices& choices, const std::string& flags) {
     print_failure(campaign, failed[i], flags);
   }
   if (failed.size() > 10) {
-    std::printf("and %zu more seeds fail:", failed.size() - 10);
-    for (std::size_t i = 10; i < failed.size(); ++i) {
-      std::printf(" %llu", static_cast<unsigned long long>(failed[i]));
-    }
-    std::printf("\n");
+    fmt::print("and {} more seeds fail: {}\n", failed.size() - 10,
+               fmt::join(failed.begin() + 10, failed.end(), " "));
   }
   std::printf("%s, %.1f s, %.0f car-steps a minute\n", describe(totals).c_str(), wall_s,
               60.0 * static_cast<double>(totals.car_steps) / std::max(wall_s, 1e-9));
@@ -188,14 +155,8 @@ int campaign(const Choices& choices, const std::string& flags) {
 
 /// The flags to repeat before --replay for the same runs.
 std::string flags_of(const Choices& choices) {
-  std::string flags = " --cars " + std::to_string(choices.campaign.cars);
-  if (!choices.faults.empty()) {
-    flags += " --faults ";
-    for (const std::string& fault : choices.faults) {
-      flags += (&fault == choices.faults.data() ? "" : ",") + fault;
-    }
-  }
-  return flags;
+  return fmt::format(" --cars {}{}{}", choices.campaign.cars,
+                     choices.faults.empty() ? "" : " --faults ", fmt::join(choices.faults, ","));
 }
 
 }  // namespace
@@ -207,8 +168,8 @@ int main(int argc, char** argv) {
   Choices choices;
   std::vector<std::string> keep;
   choices.campaign.scenario_folder = "launch_scripts/scenarios";
-  app.add_option("--cars", choices.campaign.cars, "3 ... 8; 0: as the seed has it")
-      ->check(hlc::apps::whole(0, 8))
+  app.add_option("--cars", choices.campaign.cars, "0: as the seed has it")
+      ->check(hlc::apps::among({"0", "3", "4", "5", "6", "7", "8"}))
       ->capture_default_str();
   app.add_option("--runs", choices.runs, "number of runs")
       ->check(hlc::apps::whole(1, kLargestSeed))
@@ -223,30 +184,21 @@ int main(int argc, char** argv) {
       ->check(hlc::apps::whole(1, 256));
   app.add_option("--scenario_folder", choices.campaign.scenario_folder, "folder of the scenarios")
       ->capture_default_str();
-  app.add_option("--replay", choices.replay, "only the run of this seed")
-      ->check(hlc::apps::whole(0, kLargestSeed));
-  app.add_option("--keep", keep, "with --replay: only these of its faults, from 0; or none")
-      ->delimiter(',');
-  app.add_option("--trace", choices.trace, "with --replay: file for what happens");
+  CLI::Option* const replayed =
+      app.add_option("--replay", choices.replay, "only the run of this seed")
+          ->check(hlc::apps::whole(0, kLargestSeed));
+  app.add_option("--keep", keep, "only these of its faults, from 0; or none")
+      ->delimiter(',')
+      ->needs(replayed)
+      ->check(hlc::apps::whole(0, 9999) | hlc::apps::among({"none"}));
+  app.add_option("--trace", choices.trace, "file for what happens")->needs(replayed);
   if (const std::optional<int> code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   return hlc::apps::exit_code_of("fault_simulator", [&] {
     hlc::apps::check_each_once("--faults", choices.faults);
-    if (!choices.replay && (!keep.empty() || !choices.trace.empty())) {
-      throw std::invalid_argument("--keep and --trace require --replay");
-    }
-    if (choices.campaign.cars == 1 || choices.campaign.cars == 2) {
-      throw std::invalid_argument("--cars = " + std::to_string(choices.campaign.cars) +
-                                  ", must be 0 or 3 ... 8");
-    }
     choices.campaign.kinds = hlc::closed_loop::fault_kinds_of(choices.faults);
     if (!keep.empty()) choices.keep.emplace();
     for (const std::string& index : keep) {
-      if (index == "none" && keep.size() == 1) break;
-      if (index.empty() || index.size() > 4 ||
-          !std::ranges::all_of(index, [](char c) { return c >= '0' && c <= '9'; })) {
-        throw std::invalid_argument("--keep = " + index + ", must be numbers of faults or none");
-      }
-      choices.keep->push_back(std::stoul(index));
+      if (index != "none") choices.keep->push_back(std::stoul(index));
     }
     return choices.replay ? replay(choices) : campaign(choices, flags_of(choices));
   });

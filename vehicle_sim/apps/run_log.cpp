@@ -41,18 +41,18 @@ std::string differences(const std::string& there, const std::string& wanted) {
   const Json before = Json::parse(there, nullptr, false);
   const Json now = Json::parse(wanted);
   if (!before.is_object()) return "first line";
-  std::string keys;
+  std::vector<std::string> keys;
   for (const auto& [key, value] : now.items()) {
     if (before.contains(key) && before[key] == value) continue;
-    keys += (keys.empty() ? "" : ", ") + key;
+    keys.push_back(key);
     if (!before.contains(key)) continue;
     if (key == "files") {
-      keys += differing_files(before[key], value);
+      keys.back() += differing_files(before[key], value);
     } else if (key != "program") {
-      keys += text_of(before[key]);
+      keys.back() += text_of(before[key]);
     }
   }
-  return keys.empty() ? "first line" : keys;
+  return keys.empty() ? "first line" : fmt::format("{}", fmt::join(keys, ", "));
 }
 
 }  // namespace

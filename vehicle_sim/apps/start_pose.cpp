@@ -1,5 +1,7 @@
 #include "vehicle_sim/apps/start_pose.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -22,9 +24,10 @@ Pose grid_pose(std::uint8_t vehicle_id) {
 Pose start_pose(std::uint8_t vehicle_id, const std::vector<double>& given) {
   if (given.empty()) {
     if (vehicle_id > kLastDefaultStart) {
-      throw std::invalid_argument("--pose: vehicle " + std::to_string(vehicle_id) +
-                                  " has no default start pose; give x,y,yaw (only ids 1 ... " +
-                                  std::to_string(kLastDefaultStart) + " can do without)");
+      throw std::invalid_argument(fmt::format(
+          "--pose: vehicle {} has no default start pose; give x,y,yaw (only ids 1 ... {} "
+          "can do without)",
+          vehicle_id, kLastDefaultStart));
     }
     return grid_pose(vehicle_id);
   }

@@ -47,13 +47,13 @@ class VehicleProcess {
   void stop() { shell_.stop(); }
 
  private:
-  friend class process::Shell<simulated_vehicle::VehicleMachine>;
+  friend class machine::Loop<simulated_vehicle::VehicleMachine>;
   /// Endpoints for messages that only the lab's programs send and receive: on the lab's transport.
   struct LabEndpoints;
 
   [[nodiscard]] simulated_vehicle::VehiclePresence presence() const;
   void perform(const ParameterRequest& request) { request_writer_.write(request); }
-  void perform(const ReadyStatus& status) { ready_writer_.write(status); }
+  void announce_tick(const ReadyStatus& status) { ready_writer_.write(status); }
   void perform(const VehicleState& state) { state_writer_.write(state); }
   void perform(const VehicleObservation& observation);
   void perform(const result::DrivenSample& sample);

@@ -40,7 +40,8 @@ void declare(CLI::App& app, Flags& flags) {
                  "measure the pose with the lab's noise (2 mm, 0.01 rad); default: exactly")
       ->check(hlc::apps::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.add_option("--gains_scale", flags.gains_scale, "factor on the follower's gains; 0: no motion")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(hlc::apps::within(0.0, kMaxGainsScale));
   CLI::Option* const record =
       app.add_option("--record", flags.record, "CSV file for the true motion, one row per tick");
   app.add_flag("--append_record", flags.append_record,
@@ -57,10 +58,6 @@ void declare(CLI::App& app, Flags& flags) {
 hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
   const auto id = static_cast<std::uint8_t>(flags.vehicle_id);
   hlc::dds::check_domain_id("--dds_domain", flags.network.dds_domain);
-  if (!(flags.gains_scale >= 0.0 && flags.gains_scale <= kMaxGainsScale)) {
-    throw std::invalid_argument("--gains_scale: " + std::to_string(flags.gains_scale) +
-                                ", must be in 0 ... 10");
-  }
   const hlc::Nanoseconds grace = flags.keep_running ? hlc::machine::kForever : hlc::kVehicleStays;
   return {.vehicle = {.vehicle_id = id,
                       .start = hlc::apps::start_pose(id, flags.pose),

@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/accuracy_comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -7,6 +9,7 @@
 #include "planner/geometry/median.hpp"
 #include "vehicle_sim/campaign/interval.hpp"
 #include "vehicle_sim/campaign/lap_quality.hpp"
+#include "vehicle_sim/campaign/markdown_table.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
@@ -49,8 +52,8 @@ class Comparison {
     }
     if (ratios.empty() && differences_mm.empty()) return "-";
     const auto better = std::ranges::count_if(ratios, [](double ratio) { return ratio < 1.0; });
-    std::string text = std::to_string(better) + " of " + std::to_string(ratios.size());
-    if (!ratios.empty()) text += ", " + number(median(std::move(ratios)), 2);
+    std::string text = fmt::format("{} of {}", better, ratios.size());
+    if (!ratios.empty()) text += fmt::format(", {:.2f}", median(std::move(ratios)));
     return text + "; " + in_words(interval_over_starts(differences_mm), 2) + " mm";
   }
 
@@ -70,20 +73,19 @@ std::string accuracy_comparison(const Sweep& sweep, const std::vector<RunFigures
       "every start, in how many the second subgraph has the smaller mean error, and the median of "
       "the second's error / the first's; then the difference second - first, start by start with "
       "all else equal, where both drive a lap, with the 95 % interval of its mean, where each "
-      "start counts once.\n\n| setting | value |";
-  std::string rule = "|---|---|";
+      "start counts once.\n\n";
+  std::vector<std::string> titles{"setting", "value"};
   for (std::size_t second = 1; second < subgraphs; ++second) {
-    text += " " + plan.subgraphs[second] + " against " + plan.subgraphs[second - 1] + " |";
-    rule += "---|";
+    titles.push_back(plan.subgraphs[second] + " against " + plan.subgraphs[second - 1]);
   }
-  text += "\n" + rule + "\n";
+  text += markdown_heading(titles);
   for (const Axes& axes : groupings_of(plan)) {
     for (const SweepGroup& group : groups_of(sweep, axes)) {
-      text += "| " + settings_text(plan, axes) + " | " + values_text(group) + " |";
+      std::vector<std::string> cells{settings_text(plan, axes), values_text(group)};
       for (std::size_t second = 1; second < subgraphs; ++second) {
-        text += " " + comparison.cell(group, second) + " |";
+        cells.push_back(comparison.cell(group, second));
       }
-      text += "\n";
+      text += fmt::format("| {} |\n", fmt::join(cells, " | "));
     }
   }
   return text + "\n";

@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/campaign.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -27,15 +29,14 @@ CampaignRun fixed(CampaignRun run) {
 scenario::Scenario with_policy(scenario::Scenario scenario, const std::string& policy) {
   const auto settings = scenario.policies.find(policy);
   if (settings == scenario.policies.end()) {
-    std::string known;
-    for (const auto& [name, other] : scenario.policies) {
-      known += (known.empty() ? "" : ", ") + one_line(name);
-    }
-    throw std::invalid_argument(
-        "--policies = " + one_line(policy) + ", must be one of " + scenario.file.string() + ": " +
-        (known.empty() ? "it has none" : known) +
-        (policy == policy::kNoPolicy ? " (fixed subgraphs, --subgraphs, are driven without one)"
-                                     : ""));
+    std::vector<std::string> known;
+    for (const auto& [name, other] : scenario.policies) known.push_back(one_line(name));
+    if (known.empty()) known.emplace_back("it has none");
+    throw std::invalid_argument(fmt::format(
+        "--policies = {}, must be one of {}: {}{}", one_line(policy), scenario.file.string(),
+        fmt::join(known, ", "),
+        policy == policy::kNoPolicy ? " (fixed subgraphs, --subgraphs, are driven without one)"
+                                    : ""));
   }
   scenario.policy = policy;
   scenario.reconfiguration = settings->second;

@@ -1,8 +1,11 @@
 #include "vehicle_sim/campaign/evaluation_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "planner/common/csv.hpp"
+#include "vehicle_sim/campaign/markdown_table.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_table.hpp"
 
@@ -35,7 +38,7 @@ std::string cell(const Spread& spread, int decimals) {
   if (spread.count == 0) return "-";
   const std::string mean = number(spread.mean, decimals);
   if (spread.count == 1) return mean;
-  return mean + " [" + number(spread.min, decimals) + " … " + number(spread.max, decimals) + "]";
+  return fmt::format("{} [{:.{}f} … {:.{}f}]", mean, spread.min, decimals, spread.max, decimals);
 }
 
 /// The runs on one subgraph, or with one policy.
@@ -87,42 +90,45 @@ std::string title_of(const Group& group) {
 
 std::string markdown_of(const Group& group) {
   const bool has_paper = group.scenario == kPaperSimulation || group.scenario == kPaperLab;
-  std::string text = "## " + title_of(group) + "\n\n| |";
-  std::string rule = "|---|";
+  std::vector<std::string> titles{""};
   for (const Column& column : group.columns) {
-    text += " " + column.name + " |" + (has_paper ? " paper |" : "");
-    rule += has_paper ? "---|---|" : "---|";
+    titles.push_back(column.name);
+    if (has_paper) titles.emplace_back("paper");
   }
-  text += "\n" + rule + "\n";
+  std::string text = "## " + title_of(group) + "\n\n" + markdown_heading(titles);
   for (const TableQuantity& quantity : table_quantities()) {
-    text += "| " + quantity.name + " |";
+    std::vector<std::string> cells{quantity.name};
     for (const Column& column : group.columns) {
-      text += " " + cell(spread_of(quantity, column.runs), quantity.decimals) + " |";
+      cells.push_back(cell(spread_of(quantity, column.runs), quantity.decimals));
       if (!has_paper) continue;
-      const std::optional<double> value = column.papers(quantity);
-      text += value ? " " + number(*value, std::min(quantity.decimals, 1)) + " |" : " |";
+      cells.push_back(number(column.papers(quantity), std::min(quantity.decimals, 1), ""));
     }
-    text += "\n";
+    text += markdown_row(cells);
   }
-  text += "| Starts, good / failed |";
+  std::vector<std::string> starts{"Starts, good / failed"};
   for (const Column& column : group.columns) {
-    const auto failed =
-        std::ranges::count_if(column.runs, [](const auto* run) { return !is_well_driven(*run); });
-    text += " " + std::to_string(static_cast<std::ptrdiff_t>(column.runs.size()) - failed) + " / " +
-            std::to_string(failed) + " |" + (has_paper ? " |" : "");
+    const auto good = std::ranges::count_if(
+        column.runs, [](const RunFigures* run) { return is_well_driven(*run); });
+    starts.push_back(fmt::format("{} / {}", good, std::ssize(column.runs) - good));
+    if (has_paper) starts.emplace_back();
   }
-  text += "\n";
+  text += markdown_row(starts);
   for (const Column& column : group.columns) {
     for (const RunFigures* run : column.runs) {
       if (is_well_driven(*run)) continue;
-      text += "\nFailed: " + (has_policy(*run) ? column.name : "subgraph " + column.name) +
-              ", start " + std::to_string(run->start) + ": " + run->failure + "\n";
+      text += fmt::format("\nFailed: {}{}, start {}: {}\n", has_policy(*run) ? "" : "subgraph ",
+                          column.name, run->start, run->failure);
     }
   }
   return text + "\n";
 }
 
 }  // namespace
+
+std::string origin_text(const EvaluationOrigin& origin) {
+  return fmt::format("Command: `{}`\n\nProgram {}, compiled by {}; {}.\n", origin.command,
+                     origin.revision, origin.compiler, origin.processor);
+}
 
 std::string evaluation_markdown(const std::vector<RunFigures>& runs,
                                 const EvaluationOrigin& origin) {
@@ -133,9 +139,7 @@ std::string evaluation_markdown(const std::vector<RunFigures>& runs,
       "planned positions. Computation times are processor time of the planning thread, one car's; "
       "wall times are of runs driven beside each other (`--jobs`).\n\n";
   for (const Group& group : groups_of(runs)) text += markdown_of(group);
-  text += "Command: `" + origin.command + "`\n\nProgram " + origin.revision + ", compiled by " +
-          origin.compiler + "; " + origin.processor + ".\n";
-  return text;
+  return text + origin_text(origin);
 }
 
 std::string evaluation_csv(const std::vector<RunFigures>& runs) {
@@ -145,13 +149,13 @@ std::string evaluation_csv(const std::vector<RunFigures>& runs) {
       for (const TableQuantity& quantity : table_quantities()) {
         const Spread spread = spread_of(quantity, column.runs);
         const std::optional<double> paper = column.papers(quantity);
-        text += csv_field(group.scenario) + "," + group.profile + "," +
-                csv_field(column.first().subgraph) + "," + csv_field(column.first().policy) + "," +
-                quantity.key + "," + std::to_string(spread.count);
+        CsvLine line(group.scenario, group.profile, column.first().subgraph, column.first().policy,
+                     quantity.key, spread.count);
         for (const double value : {spread.mean, spread.min, spread.max}) {
-          text += "," + (spread.count > 0 ? number(value, 6) : "");
+          line.add(spread.count > 0 ? number(value, 6) : "");
         }
-        text += "," + (paper ? number(*paper, 1) : "") + "\n";
+        line.add(number(paper, 1, ""));
+        text += line.text();
       }
     }
   }

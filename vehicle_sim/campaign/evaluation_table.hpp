@@ -15,6 +15,9 @@ struct EvaluationOrigin {
   std::string processor;
 };
 
+/// The report's last lines: command, program and processor.
+[[nodiscard]] std::string origin_text(const EvaluationOrigin& origin);
+
 /// Markdown: for every scenario and profile a table with a column per fixed subgraph and per policy
 /// and, for the paper's scenarios (paper_three_cars: its simulation, paper_red_alone: its lab), the
 /// paper's own beside it. A cell is the mean over the starts and, with several, their range in

@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/failure_list.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <regex>
@@ -72,14 +74,13 @@ std::string failure_list(const std::vector<RunFigures>& runs) {
   std::vector<std::pair<std::string, Failures>> reasons(by_reason.begin(), by_reason.end());
   std::ranges::stable_sort(reasons, std::ranges::greater{},
                            [](const auto& reason) { return reason.second.count; });
-  std::string text = "## Runs that do not count: " + std::to_string(failed) + "\n\n";
+  std::string text = fmt::format("## Runs that do not count: {}\n\n", failed);
   for (std::size_t i = 0; i < std::min(kReasonsShown, reasons.size()); ++i) {
     const auto& [reason, failures] = reasons[i];
-    text += "* " + std::to_string(failures.count) + " times " + failures.in_words(reason) + "\n";
+    text += fmt::format("* {} times {}\n", failures.count, failures.in_words(reason));
   }
   if (reasons.size() > kReasonsShown) {
-    text += "* and " + std::to_string(reasons.size() - kReasonsShown) +
-            " other reasons, see sweep.csv\n";
+    text += fmt::format("* and {} other reasons, see sweep.csv\n", reasons.size() - kReasonsShown);
   }
   return text + "\n";
 }

@@ -1,15 +1,21 @@
 #pragma once
 
-#include <cstdio>
+#include <fmt/format.h>
+
+#include <optional>
 #include <string>
 
 namespace hlc::campaign {
 
-/// A number of a table with this many decimals; |value| < 1e40.
+/// A number of a table with this many decimals.
 [[nodiscard]] inline std::string number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+/// The same of a value that may be absent.
+[[nodiscard]] inline std::string number(const std::optional<double>& value, int decimals,
+                                        const char* absent) {
+  return value ? number(*value, decimals) : absent;
 }
 
 }  // namespace hlc::campaign

@@ -1,12 +1,13 @@
 #include "vehicle_sim/campaign/paired_comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "planner/common/demand.hpp"
 #include "vehicle_sim/campaign/interval.hpp"
-#include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_distance.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
@@ -36,10 +37,10 @@ struct PairedRuns {
 /// The interval of a mean of logarithms, as the corresponding ratio.
 std::string ratio_in_words(const std::optional<Interval>& logs) {
   if (!logs) return "-";
-  const std::string mean = number(std::exp(logs->mean), 3);
-  if (!logs->half_width) return mean;
-  return mean + " [" + number(std::exp(logs->mean - *logs->half_width), 3) + " … " +
-         number(std::exp(logs->mean + *logs->half_width), 3) + "]";
+  const double mean = std::exp(logs->mean);
+  if (!logs->half_width) return fmt::format("{:.3f}", mean);
+  return fmt::format("{:.3f} [{:.3f} … {:.3f}]", mean, std::exp(logs->mean - *logs->half_width),
+                     std::exp(logs->mean + *logs->half_width));
 }
 
 class Pairs {
@@ -66,17 +67,17 @@ class Pairs {
       add(first->second, second, by_subgraph, logs);
     }
     const SweepAxis& of_axis = plan.axes[axis];
-    const std::string heading = "| " + of_axis.setting + " | " + of_axis.values[value].text +
-                                " | " + of_axis.values[0].text + " | " + values_text(within) +
-                                " | ";
+    const std::string heading =
+        fmt::format("| {} | {} | {} | {} | ", of_axis.setting, of_axis.values[value].text,
+                    of_axis.values[0].text, values_text(within));
     for (const auto& [key, paired] : by_subgraph) {
       const auto [scenario, subgraph] = key;
-      rows_ += heading + plan.scenarios[scenario].stem().string() + ", " +
-               plan.subgraphs[subgraph] + " | " + std::to_string(paired.pairs) + " | " +
-               std::to_string(paired.laps_of_second) + ", " + std::to_string(paired.laps_of_first) +
-               " | " + in_words(interval_over_starts(paired.error_mm), 2) + " | " +
-               in_words(interval_over_starts(paired.lap_s), 3) + " | " +
-               in_words(interval_over_starts(paired.generated), 0) + " |\n";
+      rows_ += fmt::format("{}{}, {} | {} | {}, {} | {} | {} | {} |\n", heading,
+                           plan.scenarios[scenario].stem().string(), plan.subgraphs[subgraph],
+                           paired.pairs, paired.laps_of_second, paired.laps_of_first,
+                           in_words(interval_over_starts(paired.error_mm), 2),
+                           in_words(interval_over_starts(paired.lap_s), 3),
+                           in_words(interval_over_starts(paired.generated), 0));
     }
     if (!logs.empty()) {
       distance_rows_ += heading + ratio_in_words(interval_over_starts(logs)) + " |\n";

@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/paper_comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,6 +9,7 @@
 #include "planner/common/demand.hpp"
 #include "planner/geometry/median.hpp"
 #include "vehicle_sim/campaign/interval.hpp"
+#include "vehicle_sim/campaign/markdown_table.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
@@ -35,49 +38,46 @@ std::size_t missing_cells(const PaperDistance& distance) {
 }
 
 std::string best_table(const Sweep& sweep, const std::vector<JudgedCombination>& nearest) {
-  std::string text = "| |";
-  std::string rule = "|---|";
-  for (const SweepAxis& axis : sweep.plan().axes) {
-    text += " " + axis.setting + " |";
-    rule += "---|";
-  }
-  text += " factor, choosing starts | cells missing | factor, held-out starts | cells missing |\n" +
-          rule + "---|---|---|---|\n";
+  std::vector<std::string> titles{""};
+  for (const SweepAxis& axis : sweep.plan().axes) titles.push_back(axis.setting);
+  titles.insert(titles.end(), {"factor, choosing starts", "cells missing",
+                               "factor, held-out starts", "cells missing"});
+  std::string text = markdown_heading(titles);
   for (std::size_t i = 0; i < std::min(kBestShown, nearest.size()); ++i) {
     const JudgedCombination& one = nearest[i];
-    text += "| " + std::to_string(i + 1) + " |";
+    std::vector<std::string> cells{fmt::to_string(i + 1)};
     for (const SweepAxis& axis : sweep.plan().axes) {
-      text += " " +
-              value_of(sweep.plan(), sweep.combinations()[one.combination], axis.setting)->text +
-              " |";
+      cells.push_back(
+          value_of(sweep.plan(), sweep.combinations()[one.combination], axis.setting)->text);
     }
-    text += " " + factor_text(one.choosing) + " | " + std::to_string(missing_cells(one.choosing)) +
-            " of " + std::to_string(one.choosing.cells.size()) + " | " + factor_text(one.held_out) +
-            " | " + (one.held_out ? std::to_string(missing_cells(*one.held_out)) : "-") + " |\n";
+    cells.insert(cells.end(),
+                 {factor_text(one.choosing),
+                  fmt::format("{} of {}", missing_cells(one.choosing), one.choosing.cells.size()),
+                  factor_text(one.held_out),
+                  one.held_out ? fmt::to_string(missing_cells(*one.held_out)) : "-"});
+    text += markdown_row(cells);
   }
   return text + "\n";
 }
 
 std::string cells_table(const JudgedCombination& chosen) {
-  std::string text =
-      "| scenario | subgraph | quantity | paper | choosing starts | held-out starts | ratio |\n"
-      "|---|---|---|---|---|---|---|\n";
+  std::string text = markdown_heading(
+      {"scenario", "subgraph", "quantity", "paper", "choosing starts", "held-out starts", "ratio"});
+  const std::optional<double> none;
   for (std::size_t i = 0; i < chosen.choosing.cells.size(); ++i) {
     const ComparedCell& cell = chosen.choosing.cells[i];
-    const std::optional<double> ours =
-        chosen.held_out ? chosen.held_out->cells[i].ours : std::nullopt;
-    text += "| " + cell.paper.scenario + " | " + cell.paper.subgraph + " | " + cell.paper.quantity +
-            " | " + number(cell.paper.value, 1) + " | " +
-            (cell.ours ? number(*cell.ours, 1) : "-") + " | " + (ours ? number(*ours, 1) : "-") +
-            " | " + (ours ? number(*ours / cell.paper.value, 2) : "-") + " |\n";
+    const std::optional<double>& ours = chosen.held_out ? chosen.held_out->cells[i].ours : none;
+    text += markdown_row({cell.paper.scenario, cell.paper.subgraph, cell.paper.quantity,
+                          number(cell.paper.value, 1), number(cell.ours, 1, "-"),
+                          number(ours, 1, "-"), ours ? number(*ours / cell.paper.value, 2) : "-"});
   }
   return text + "\n";
 }
 
 std::string values_table(const Sweep& sweep, const std::vector<JudgedCombination>& nearest) {
-  std::string text =
-      "| setting | value | combinations | nearest: factor, choosing starts | the same, held-out "
-      "starts | median factor, choosing starts | may be as near |\n|---|---|---|---|---|---|---|\n";
+  std::string text = markdown_heading(
+      {"setting", "value", "combinations", "nearest: factor, choosing starts",
+       "the same, held-out starts", "median factor, choosing starts", "may be as near"});
   for (std::size_t axis = 0; axis < sweep.plan().axes.size(); ++axis) {
     const SweepAxis& of_axis = sweep.plan().axes[axis];
     if (of_axis.values.size() > kMaxTableValues) continue;
@@ -91,14 +91,15 @@ std::string values_table(const Sweep& sweep, const std::vector<JudgedCombination
         factors.push_back(one.choosing.factor());
         as_near += one.may_be_as_near ? 1U : 0U;
       }
-      text += "| " + of_axis.setting + " | " + of_axis.values[value].text + " | " +
-              std::to_string(factors.size()) + " | ";
+      std::vector<std::string> cells{of_axis.setting, of_axis.values[value].text,
+                                     fmt::to_string(factors.size())};
       if (first == nullptr) {
-        text += "- | - | - | - |\n";
-        continue;
+        cells.insert(cells.end(), 4, "-");
+      } else {
+        cells.insert(cells.end(), {factor_text(first->choosing), factor_text(first->held_out),
+                                   number(median(factors), 3), fmt::to_string(as_near)});
       }
-      text += factor_text(first->choosing) + " | " + factor_text(first->held_out) + " | " +
-              number(median(factors), 3) + " | " + std::to_string(as_near) + " |\n";
+      text += markdown_row(cells);
     }
   }
   return text + "\n";
@@ -149,28 +150,24 @@ std::string paper_comparison(const Sweep& sweep, const std::vector<RunFigures>& 
       nearest, [](const JudgedCombination& one) { return one.may_be_as_near; });
   const PaperDistance& chosen = nearest.front().choosing;
   const std::optional<PaperDistance>& held_out = nearest.front().held_out;
-  return "## Next to the paper's Table 2\n\nFactor = exp(sqrt(D)), D = mean over the cells of (ln "
-         "ours / paper)², each at most (ln " +
-         number(kMaxCellFactor, 0) +
-         ")², also for cells that could not be filled; ours is the mean over the starts. By so "
-         "much a typical cell is off. The nearest of " +
-         std::to_string(nearest.size()) + " combinations is chosen by the starts 0 to " +
-         std::to_string(choosing - 1) +
-         (held_out
-              ? "; its distance is measured on the starts " + std::to_string(choosing) + " to " +
-                    std::to_string(starts - 1) + ", which had no part in the choice.\n\n"
-              : "; with a single start nothing is held out to measure its distance.\n\n") +
-         "**The chosen combination is off by a factor of " + factor_text(held_out) +
-         " over the held-out starts** (" + factor_text(chosen) + " over those that chose it).\n\n" +
-         best_table(sweep, nearest) +
-         "The chosen one's cells, the ratio that of the held-out "
-         "starts:\n\n" +
-         cells_table(nearest.front()) + std::to_string(as_near) + " of " +
-         std::to_string(nearest.size()) +
-         " combinations may be as near: the 95 % interval of the difference of sqrt(D) to the "
-         "chosen one, start by start over the held-out starts, does not lie above 0. What each "
-         "value of a setting allows:\n\n" +
-         values_table(sweep, nearest);
+  const std::string measured =
+      held_out ? fmt::format(
+                     "its distance is measured on the starts {} to {}, which had no part in "
+                     "the choice",
+                     choosing, starts - 1)
+               : "with a single start nothing is held out to measure its distance";
+  return fmt::format(
+      "## Next to the paper's Table 2\n\nFactor = exp(sqrt(D)), D = mean over the cells of (ln "
+      "ours / paper)², each at most (ln {:.0f})², also for cells that could not be filled; ours is "
+      "the mean over the starts. By so much a typical cell is off. The nearest of {} combinations "
+      "is chosen by the starts 0 to {}; {}.\n\n**The chosen combination is off by a factor of {} "
+      "over the held-out starts** ({} over those that chose it).\n\n{}The chosen one's cells, the "
+      "ratio that of the held-out starts:\n\n{}{} of {} combinations may be as near: the 95 % "
+      "interval of the difference of sqrt(D) to the chosen one, start by start over the held-out "
+      "starts, does not lie above 0. What each value of a setting allows:\n\n{}",
+      kMaxCellFactor, nearest.size(), choosing - 1, measured, factor_text(held_out),
+      factor_text(chosen), best_table(sweep, nearest), cells_table(nearest.front()), as_near,
+      nearest.size(), values_table(sweep, nearest));
 }
 
 }  // namespace hlc::campaign

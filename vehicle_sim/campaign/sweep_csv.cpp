@@ -1,8 +1,11 @@
 #include "vehicle_sim/campaign/sweep_csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
+#include "planner/common/csv.hpp"
 #include "planner/common/demand.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/paper_distance.hpp"
@@ -10,10 +13,6 @@
 
 namespace hlc::campaign {
 namespace {
-
-std::string number_or_empty(const std::optional<double>& value, int decimals) {
-  return value ? number(*value, decimals) : "";
-}
 
 std::string without_commas(std::string text) {
   std::ranges::replace(text, ',', ';');
@@ -41,23 +40,23 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<RunFigures>& runs) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const SweepRun& what = sweep.runs()[i];
     const RunFigures& run = runs[i];
-    text += std::to_string(i) + "," + std::to_string(what.combination) + "," +
-            without_commas(run.scenario) + "," + without_commas(run.subgraph) + "," +
-            std::to_string(run.start);
+    CsvLine line(i, what.combination, without_commas(run.scenario), without_commas(run.subgraph),
+                 run.start);
     for (const SweepAxis& axis : sweep.plan().axes) {
-      text +=
-          "," + value_of(sweep.plan(), sweep.combinations()[what.combination], axis.setting)->text;
+      line.add(value_of(sweep.plan(), sweep.combinations()[what.combination], axis.setting)->text);
     }
-    text += "," + number_or_empty(run.lap_s, 4) + "," + number_or_empty(run.error_mean_mm, 4) +
-            "," + number_or_empty(run.error_std_mm, 4);
+    for (const std::optional<double>& value : {run.lap_s, run.error_mean_mm, run.error_std_mm}) {
+      line.add(number(value, 4, ""));
+    }
     const bool was_driven = run.error_mean_mm.has_value();
     for (const double value :
          {run.generated_max, run.generated_sum_max, run.expanded_max, run.expanded_sum_max}) {
-      text += "," + (was_driven ? number(value, 0) : "");
+      line.add(was_driven ? number(value, 0) : "");
     }
-    text += "," + (was_driven ? number(run.deviation_max_mm, 2) : "") + "," +
-            (was_driven ? std::to_string(run.fallback_steps) : "") + ",";
-    text += distances[what.combination] + "," + without_commas(run.failure) + "\n";
+    line.add(was_driven ? number(run.deviation_max_mm, 2) : "",
+             was_driven ? fmt::to_string(run.fallback_steps) : "", distances[what.combination],
+             without_commas(run.failure));
+    text += line.text();
   }
   return text;
 }

@@ -1,17 +1,10 @@
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 
 namespace hlc::campaign {
-namespace {
-
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + text;
-  return all;
-}
-
-}  // namespace
 
 std::vector<Axes> groupings_of(const SweepPlan& plan) {
   std::vector<Axes> groupings{{}};
@@ -42,13 +35,15 @@ std::vector<SweepGroup> groups_of(const Sweep& sweep, const Axes& axes) {
   return list;
 }
 
-std::string settings_text(const SweepPlan& plan, const Axes& axes) {
+std::string settings_text(const SweepPlan& plan, const Axes& axes, const char* separator) {
   std::vector<std::string> names;
   for (const std::size_t axis : axes) names.push_back(plan.axes[axis].setting);
-  return names.empty() ? "all" : joined(names);
+  return names.empty() ? "all" : fmt::format("{}", fmt::join(names, separator));
 }
 
-std::string values_text(const SweepGroup& group) { return joined(group.values); }
+std::string values_text(const SweepGroup& group, const char* separator) {
+  return fmt::format("{}", fmt::join(group.values, separator));
+}
 
 std::vector<std::vector<std::size_t>> runs_by_combination(const Sweep& sweep) {
   std::vector<std::vector<std::size_t>> numbers(sweep.combinations().size());

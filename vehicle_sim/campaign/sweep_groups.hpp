@@ -29,8 +29,9 @@ struct SweepGroup {
 [[nodiscard]] std::vector<SweepGroup> groups_of(const Sweep& sweep, const Axes& axes);
 
 /// "drivable, search", "lanes, 2022": of a group without axes "all" and nothing.
-[[nodiscard]] std::string settings_text(const SweepPlan& plan, const Axes& axes);
-[[nodiscard]] std::string values_text(const SweepGroup& group);
+[[nodiscard]] std::string settings_text(const SweepPlan& plan, const Axes& axes,
+                                        const char* separator = ", ");
+[[nodiscard]] std::string values_text(const SweepGroup& group, const char* separator = ", ");
 
 /// Numbers of the runs, by combination.
 [[nodiscard]] std::vector<std::vector<std::size_t>> runs_by_combination(const Sweep& sweep);

@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/sweep_plan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <random>
 #include <set>
@@ -25,7 +27,7 @@ SweepValue trims_value(const std::set<TrimId>& chosen, const std::vector<automat
   for (std::size_t i = 0; i < trims.size(); ++i) {
     if (!trims[i].is_equilibrium() && !chosen.contains(TrimId{i})) continue;
     value.trims.push_back(TrimId{i});
-    value.text += (value.text.empty() ? "" : " ") + std::to_string(i + 1);
+    value.text += fmt::format("{}{}", value.text.empty() ? "" : " ", i + 1);
   }
   return value;
 }
@@ -37,9 +39,10 @@ std::vector<SweepValue> all_subsets(const Node& settings,
     if (!trims[i].is_equilibrium()) moving.push_back(TrimId{i});
   }
   if (moving.empty() || moving.size() > kMaxSubsetTrims) {
-    settings.fail(kTrimsSetting, "lists of trims; all subsets only of 1 ... " +
-                                     std::to_string(kMaxSubsetTrims) + " moving trims, not of " +
-                                     std::to_string(moving.size()));
+    settings.fail(
+        kTrimsSetting,
+        fmt::format("lists of trims; all subsets only of 1 ... {} moving trims, not of {}",
+                    kMaxSubsetTrims, moving.size()));
   }
   std::vector<SweepValue> values;
   for (std::size_t bits = 1; bits < (std::size_t{1} << moving.size()); ++bits) {

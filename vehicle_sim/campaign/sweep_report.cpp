@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/sweep_report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "planner/common/demand.hpp"
@@ -16,19 +18,17 @@ std::string sweep_markdown(const Sweep& sweep, const std::vector<RunFigures>& ru
                            const EvaluationOrigin& origin) {
   HLC_DEMAND(runs.size() == sweep.runs().size(), runs.size(), sweep.runs().size());
   const SweepPlan& plan = sweep.plan();
-  std::string text =
-      "# Sweep " + plan.file.filename().string() + "\n\n" + std::to_string(runs.size()) +
-      " runs: " + std::to_string(sweep.combinations().size()) +
-      " combinations of settings; scenarios " + std::to_string(plan.scenarios.size()) +
-      ", subgraphs " + std::to_string(plan.subgraphs.size()) + ", starts " +
-      std::to_string(plan.starts) + ", automata " + std::to_string(sweep.num_automata()) + ".\n\n";
+  std::string text = fmt::format(
+      "# Sweep {}\n\n{} runs: {} combinations of settings; scenarios {}, subgraphs {}, starts {}, "
+      "automata {}.\n\n",
+      plan.file.filename().string(), runs.size(), sweep.combinations().size(),
+      plan.scenarios.size(), plan.subgraphs.size(), plan.starts, sweep.num_automata());
   const bool sweeps_trims = std::ranges::any_of(
       plan.axes, [](const SweepAxis& axis) { return axis.setting == kTrimsSetting; });
   text += sweeps_trims ? trims_markdown(sweep, runs) : paper_comparison(sweep, runs);
   text += accuracy_comparison(sweep, runs) + paired_comparison(sweep, runs) +
           sweep_tables_markdown(sweep, runs) + failure_list(runs);
-  return text + "Command: `" + origin.command + "`\n\nProgram " + origin.revision +
-         ", compiled by " + origin.compiler + "; " + origin.processor + ".\n";
+  return text + origin_text(origin);
 }
 
 }  // namespace hlc::campaign

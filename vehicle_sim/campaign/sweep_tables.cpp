@@ -1,11 +1,15 @@
 #include "vehicle_sim/campaign/sweep_tables.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
 
+#include "planner/common/csv.hpp"
 #include "planner/common/demand.hpp"
 #include "vehicle_sim/campaign/interval.hpp"
+#include "vehicle_sim/campaign/markdown_table.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/sweep_groups.hpp"
 
@@ -63,32 +67,22 @@ class Tables {
 
   [[nodiscard]] std::string markdown(std::size_t scenario, const Axes& axes) const {
     const SweepPlan& plan = sweep_.plan();
-    std::string text = "|";
-    std::string rule = "|";
-    for (const std::size_t axis : axes) {
-      text += " " + plan.axes[axis].setting + " |";
-      rule += "---|";
-    }
-    text += " subgraph | combinations | laps |";
-    rule += "---|---|---|";
-    for (const SweepQuantity& quantity : kSweepQuantities) {
-      text += std::string(" ") + quantity.title + " |";
-      rule += "---|";
-    }
-    text += "\n" + rule + "\n";
+    std::vector<std::string> titles;
+    for (const std::size_t axis : axes) titles.push_back(plan.axes[axis].setting);
+    titles.insert(titles.end(), {"subgraph", "combinations", "laps"});
+    for (const SweepQuantity& quantity : kSweepQuantities) titles.emplace_back(quantity.title);
+    std::string text = markdown_heading(titles);
     for (const SweepGroup& group : groups_of(sweep_, axes)) {
       for (std::size_t s = 0; s < plan.subgraphs.size(); ++s) {
-        const TableRow cells = row(group, scenario, s);
-        text += "|";
-        for (const std::string& value : group.values) text += " " + value + " |";
-        text += " " + plan.subgraphs[s] + " | " + std::to_string(group.combinations.size()) +
-                " | " + std::to_string(cells.laps) + " of " + std::to_string(cells.runs) + " |";
+        const TableRow found = row(group, scenario, s);
+        std::vector<std::string> cells = group.values;
+        cells.insert(cells.end(), {plan.subgraphs[s], fmt::to_string(group.combinations.size()),
+                                   fmt::format("{} of {}", found.laps, found.runs)});
         for (std::size_t q = 0; q < kSweepQuantities.size(); ++q) {
-          text += " " +
-                  in_words(interval_over_starts(cells.values[q]), kSweepQuantities[q].decimals) +
-                  " |";
+          cells.push_back(
+              in_words(interval_over_starts(found.values[q]), kSweepQuantities[q].decimals));
         }
-        text += "\n";
+        text += markdown_row(cells);
       }
     }
     return text + "\n";
@@ -98,20 +92,17 @@ class Tables {
     const SweepPlan& plan = sweep_.plan();
     std::string text;
     for (const SweepGroup& group : groups_of(sweep_, axes)) {
-      std::string heading = plan.scenarios[scenario].stem().string() + "," +
-                            settings_text(plan, axes) + "," + values_text(group);
-      for (std::size_t at = 0; (at = heading.find(", ", at)) != std::string::npos;) {
-        heading[at] = ';';
-      }
+      const CsvLine heading(plan.scenarios[scenario].stem().string(),
+                            settings_text(plan, axes, "; "), values_text(group, "; "));
       for (std::size_t s = 0; s < plan.subgraphs.size(); ++s) {
         const TableRow cells = row(group, scenario, s);
         for (std::size_t q = 0; q < kSweepQuantities.size(); ++q) {
           const std::optional<Interval> interval = interval_over_starts(cells.values[q]);
-          text += heading + "," + plan.subgraphs[s] + "," +
-                  std::to_string(group.combinations.size()) + "," + std::to_string(cells.runs) +
-                  "," + std::to_string(cells.laps) + "," + kSweepQuantities[q].key + "," +
-                  (interval ? number(interval->mean, 6) : "") + "," +
-                  (interval && interval->half_width ? number(*interval->half_width, 6) : "") + "\n";
+          CsvLine line = heading;
+          line.add(plan.subgraphs[s], group.combinations.size(), cells.runs, cells.laps,
+                   kSweepQuantities[q].key, interval ? number(interval->mean, 6) : "",
+                   interval ? number(interval->half_width, 6, "") : "");
+          text += line.text();
         }
       }
     }
@@ -134,8 +125,8 @@ std::string sweep_tables_markdown(const Sweep& sweep, const std::vector<RunFigur
       "each start counts once, as the mean over its combinations.\n\n";
   for (std::size_t scenario = 0; scenario < plan.scenarios.size(); ++scenario) {
     for (const Axes& axes : groupings_of(plan)) {
-      text += "### " + plan.scenarios[scenario].stem().string() + ", by " +
-              settings_text(plan, axes) + "\n\n" + tables.markdown(scenario, axes);
+      text += fmt::format("### {}, by {}\n\n{}", plan.scenarios[scenario].stem().string(),
+                          settings_text(plan, axes), tables.markdown(scenario, axes));
     }
   }
   return text;

@@ -1,9 +1,12 @@
 #include "vehicle_sim/campaign/tradeoff.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
 
+#include "vehicle_sim/campaign/markdown_table.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 #include "vehicle_sim/campaign/tradeoff_rows.hpp"
 #include "vehicle_sim/campaign/zone_excess.hpp"
@@ -18,21 +21,19 @@ std::string cell_of(const std::string& name) {
 }
 
 std::string table_of(const TradeoffGroup& group) {
-  std::string text = "| |";
-  std::string rule = "|---|";
-  for (const TradeoffQuantity& quantity : tradeoff_quantities()) {
-    text += " " + quantity.name + " |";
-    rule += "---|";
-  }
-  text += " laps | runs that count / all |\n" + rule + "---|---|\n";
+  std::vector<std::string> titles{""};
+  for (const TradeoffQuantity& quantity : tradeoff_quantities()) titles.push_back(quantity.name);
+  titles.insert(titles.end(), {"laps", "runs that count / all"});
+  std::string text = markdown_heading(titles);
   for (const TradeoffRow& row : group.rows) {
-    text += "| " + cell_of(planned_on(row.first())) + (row.keeps_limits ? "" : " (!)") + " |";
+    std::vector<std::string> cells{cell_of(planned_on(row.first())) +
+                                   (row.keeps_limits ? "" : " (!)")};
     for (std::size_t i = 0; i < row.medians.size(); ++i) {
-      const std::optional<double>& median = row.medians[i];
-      text += " " + (median ? number(*median, tradeoff_quantities()[i].decimals) : "-") + " |";
+      cells.push_back(number(row.medians[i], tradeoff_quantities()[i].decimals, "-"));
     }
-    text += " " + std::to_string(row.laps) + " | " + std::to_string(row.good_runs) + " / " +
-            std::to_string(row.runs.size()) + " |\n";
+    cells.insert(cells.end(), {fmt::to_string(row.laps),
+                               fmt::format("{} / {}", row.good_runs, row.runs.size())});
+    text += markdown_row(cells);
   }
   return text + "\n";
 }
@@ -54,8 +55,8 @@ std::string uses_of(const TradeoffGroup& group) {
                              [](const auto& one) { return one.second; });
     text += "* " + planned_on(row.first()) + ":";
     for (const auto& [name, share] : sorted) {
-      text += (name == sorted.front().first ? " " : "; ") + name + " " + number(100.0 * share, 1) +
-              " %";
+      text += fmt::format("{}{} {:.1f} %", name == sorted.front().first ? " " : "; ", name,
+                          100.0 * share);
     }
     text += "\n";
   }
@@ -63,11 +64,11 @@ std::string uses_of(const TradeoffGroup& group) {
 }
 
 std::string front_names(const TradeoffCompetition& competition) {
-  std::string names;
+  std::vector<std::string> names;
   for (const std::size_t i : competition.front.not_dominated) {
-    names += (names.empty() ? "" : ", ") + cell_of(planned_on(competition.rows[i]->first()));
+    names.push_back(cell_of(planned_on(competition.rows[i]->first())));
   }
-  return names;
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// "1.052": with the policy, of the fixed ones; absolute if these have none.
@@ -77,35 +78,28 @@ std::string volume_text(const TradeoffFront& front, std::size_t i) {
 }
 
 std::string fronts_of(const TradeoffGroup& group, bool within_limits) {
-  std::string text = "| | not dominated | hypervolume of the fixed |";
-  std::string rule = "|---|---|---|";
+  std::vector<std::string> titles{"", "not dominated", "hypervolume of the fixed"};
   std::vector<const TradeoffRow*> policies;
   for (const TradeoffRow& row : group.rows) {
     if (!has_policy(row.first())) continue;
     policies.push_back(&row);
-    text += " with " + cell_of(planned_on(row.first())) + " |";
-    rule += "---|";
+    titles.push_back("with " + cell_of(planned_on(row.first())));
   }
-  text += "\n" + rule + "\n";
+  std::string text = markdown_heading(titles);
   for (const TradeoffPair& pair : tradeoff_pairs()) {
     const std::optional<TradeoffCompetition> one = competition(group, pair, within_limits);
-    text += "| " + name_of(pair) + " |";
-    if (!one) {
-      text += " - | - |";
-      for (std::size_t i = 0; i < policies.size(); ++i) text += " - |";
-      text += "\n";
-      continue;
+    std::vector<std::string> cells(titles.size(), "-");
+    cells[0] = name_of(pair);
+    if (one) {
+      cells[1] = front_names(*one);
+      cells[2] = number(one->front.fixed_volume, 3);
+      for (std::size_t i = 0; i < policies.size(); ++i) {
+        const auto row = std::ranges::find(one->rows, policies[i]);
+        if (row == one->rows.end()) continue;
+        cells[3 + i] = volume_text(one->front, static_cast<std::size_t>(row - one->rows.begin()));
+      }
     }
-    text += " " + front_names(*one) + " | " + number(one->front.fixed_volume, 3) + " |";
-    for (const TradeoffRow* policy : policies) {
-      const auto row = std::ranges::find(one->rows, policy);
-      const bool competes = row != one->rows.end();
-      text += " " +
-              (competes ? volume_text(one->front, static_cast<std::size_t>(row - one->rows.begin()))
-                        : "-") +
-              " |";
-    }
-    text += "\n";
+    text += markdown_row(cells);
   }
   return text + "\n";
 }
@@ -120,8 +114,9 @@ std::string references_of(const TradeoffGroup& group) {
       text += "-";
       continue;
     }
-    text += number(one->reference(0), tradeoff_quantities()[pair.x].decimals) + ", " +
-            number(one->reference(1), tradeoff_quantities()[pair.y].decimals);
+    text +=
+        fmt::format("{:.{}f}, {:.{}f}", one->reference(0), tradeoff_quantities()[pair.x].decimals,
+                    one->reference(1), tradeoff_quantities()[pair.y].decimals);
   }
   return text + ".\n\n";
 }
@@ -130,10 +125,10 @@ std::string markdown_of(const TradeoffGroup& group) {
   std::string text =
       "## " + group.scenario + ", profile " + group.profile + "\n\n" + table_of(group);
   if (group.has_zones) {
-    text +=
-        "(!): does not keep the limits of the zones: in some start clearly above, by more than " +
-        number(kFollowerExcess_mps, 1) + " m/s, for more than " +
-        number(100.0 * kMostAboveLimit, 0) + " % of the time in zones.\n\n";
+    text += fmt::format(
+        "(!): does not keep the limits of the zones: in some start clearly above, by more than "
+        "{:.1f} m/s, for more than {:.0f} % of the time in zones.\n\n",
+        kFollowerExcess_mps, 100.0 * kMostAboveLimit);
   }
   text += uses_of(group) + "### All rows\n\n" + fronts_of(group, false);
   if (group.has_zones) text += "### Rows that keep the limits\n\n" + fronts_of(group, true);

@@ -13,13 +13,10 @@ std::string tradeoff_csv(const std::vector<RunFigures>& runs) {
   text += ",keeps_limits,laps,good_runs,runs\n";
   for (const TradeoffGroup& group : tradeoff_groups(runs)) {
     for (const TradeoffRow& row : group.rows) {
-      text += csv_field(group.scenario) + "," + group.profile + "," +
-              csv_field(row.first().subgraph) + "," + csv_field(row.first().policy);
-      for (const std::optional<double>& median : row.medians) {
-        text += "," + (median ? number(*median, 6) : "");
-      }
-      text += "," + std::to_string(row.keeps_limits ? 1 : 0) + "," + std::to_string(row.laps) +
-              "," + std::to_string(row.good_runs) + "," + std::to_string(row.runs.size()) + "\n";
+      CsvLine line(group.scenario, group.profile, row.first().subgraph, row.first().policy);
+      for (const std::optional<double>& median : row.medians) line.add(number(median, 6, ""));
+      line.add(row.keeps_limits, row.laps, row.good_runs, row.runs.size());
+      text += line.text();
     }
   }
   return text;
@@ -34,17 +31,16 @@ std::string tradeoff_fronts_csv(const std::vector<RunFigures>& runs) {
       for (const TradeoffPair& pair : tradeoff_pairs()) {
         const std::optional<TradeoffCompetition> one = competition(group, pair, within_limits);
         if (!one) continue;
-        const std::string begin =
-            csv_field(group.scenario) + "," + group.profile + "," +
-            (within_limits ? "within_limits" : "all") + "," + tradeoff_quantities()[pair.x].key +
-            "," + tradeoff_quantities()[pair.y].key + "," + number(one->reference(0), 6) + "," +
-            number(one->reference(1), 6) + ",";
+        const CsvLine begin(group.scenario, group.profile, within_limits ? "within_limits" : "all",
+                            tradeoff_quantities()[pair.x].key, tradeoff_quantities()[pair.y].key,
+                            number(one->reference(0), 6), number(one->reference(1), 6));
         for (std::size_t i = 0; i < one->rows.size(); ++i) {
           const RunFigures& first = one->rows[i]->first();
           const bool is_in_front = std::ranges::binary_search(one->front.not_dominated, i);
-          text += begin + csv_field(first.subgraph) + "," + csv_field(first.policy) + "," +
-                  (is_in_front ? "1," : "0,") + number(one->front.fixed_volume, 6) + "," +
-                  number(one->front.volume_with[i], 6) + "\n";
+          CsvLine line = begin;
+          line.add(first.subgraph, first.policy, is_in_front, number(one->front.fixed_volume, 6),
+                   number(one->front.volume_with[i], 6));
+          text += line.text();
         }
       }
     }

@@ -1,10 +1,13 @@
 #include "vehicle_sim/campaign/trims_front.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <tuple>
 
 #include "planner/common/demand.hpp"
 #include "vehicle_sim/campaign/lap_quality.hpp"
+#include "vehicle_sim/campaign/markdown_table.hpp"
 #include "vehicle_sim/campaign/number_text.hpp"
 
 namespace hlc::campaign {
@@ -29,9 +32,9 @@ std::string name_of(const Sweep& sweep, std::size_t combination) {
 }
 
 std::string row(const Sweep& sweep, const TrimsQuality& choice, const std::string& note) {
-  return "| " + std::to_string(choice.moving) + " | " + name_of(sweep, choice.combination) + " | " +
-         number(choice.error_mean_mm, 2) + " | " + number(choice.lap_s, 2) + " | " +
-         number(choice.generated_max, 0) + " | " + note + " |\n";
+  return markdown_row({fmt::to_string(choice.moving), name_of(sweep, choice.combination),
+                       number(choice.error_mean_mm, 2), number(choice.lap_s, 2),
+                       number(choice.generated_max, 0), note});
 }
 
 bool dominates(const TrimsQuality& a, const TrimsQuality& b) {
@@ -48,16 +51,14 @@ std::string place_of(const std::vector<TrimsQuality>& choices, const TrimsQualit
   const auto ahead = std::ranges::count_if(choices, [&](const TrimsQuality& one) {
     return one.moving == choice.moving && one.error_mean_mm < choice.error_mean_mm;
   });
-  return (better == 0 ? std::string("on the front")
-                      : std::to_string(better) + " choices dominate it") +
-         "; number " + std::to_string(ahead + 1) + " of " + std::to_string(same_size) +
-         " with as many trims";
+  return fmt::format("{}; number {} of {} with as many trims",
+                     better == 0 ? "on the front" : fmt::format("{} choices dominate it", better),
+                     ahead + 1, same_size);
 }
 
 std::string markdown_of(const Sweep& sweep, const std::vector<TrimsQuality>& choices) {
-  std::string text =
-      "| moving trims | trims | error, mean [mm] | lap [s] | max. generated | |\n"
-      "|---|---|---|---|---|---|\n";
+  std::string text = markdown_heading(
+      {"moving trims", "trims", "error, mean [mm]", "lap [s]", "max. generated", ""});
   for (const TrimsQuality& choice : trims_front(choices)) text += row(sweep, choice, "front");
   const std::size_t most = std::ranges::max_element(choices, {}, &TrimsQuality::moving)->moving;
   // Sorted: the first with so many is the most accurate of them.
@@ -119,10 +120,10 @@ std::string trims_markdown(const Sweep& sweep, const std::vector<RunFigures>& ru
   for (std::size_t scenario = 0; scenario < sweep.plan().scenarios.size(); ++scenario) {
     for (std::size_t subgraph = 0; subgraph < sweep.plan().subgraphs.size(); ++subgraph) {
       const std::vector<TrimsQuality> choices = trims_that_drive(sweep, runs, scenario, subgraph);
-      text += "## Trims: " + sweep.plan().scenarios[scenario].stem().string() + ", maneuvers of " +
-              sweep.plan().subgraphs[subgraph] + "\n\n" + std::to_string(choices.size()) + " of " +
-              std::to_string(sweep.combinations().size()) +
-              " choices drive a lap from every start.\n\n";
+      text += fmt::format(
+          "## Trims: {}, maneuvers of {}\n\n{} of {} choices drive a lap from every start.\n\n",
+          sweep.plan().scenarios[scenario].stem().string(), sweep.plan().subgraphs[subgraph],
+          choices.size(), sweep.combinations().size());
       if (!choices.empty()) text += markdown_of(sweep, choices);
     }
   }

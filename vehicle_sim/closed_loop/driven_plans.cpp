@@ -10,24 +10,32 @@ namespace hlc::closed_loop {
 namespace {
 
 constexpr std::size_t kKeptCommands = 16;  // more than a command's lifetime, copy included
+/// More than the pause between a command and its copy.
+constexpr Nanoseconds kCopyPause = 10 * kNanosecondsPerMillisecond;
 
 }  // namespace
 
-void DrivenPlans::commanded(const TrajectoryCommand& command) {
+void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at) {
   Car& car = cars_[{command.vehicle_id}];
   car.is_commanded_to_stand = command.points.empty();
-  if (!car.sent.empty() && car.sent.back().create == command.create_stamp) return;  // the copy
-  car.sent.push_back({.create = command.create_stamp, .plan = nullptr});
+  const Nanoseconds usable_until = command.valid_after_stamp + kCommandLifetime;
+  if (!car.sent.empty() && car.sent.back().create == command.create_stamp) {  // the copy
+    car.sent.back().usable_until = usable_until;
+    return;
+  }
+  car.sent.push_back(
+      {.create = command.create_stamp, .at = at, .usable_until = usable_until, .plan = nullptr});
   if (car.sent.size() > kKeptCommands) car.sent.pop_front();
 }
 
 bool DrivenPlans::has_newest_plan(const Car& car) {
-  const AgreedPlan newest = plan_of(car, car.newest_valid);
+  const AgreedPlan newest = plan_of(car, car.received.newest());
   return car.num_agreed == 0 || (newest && newest->number == car.agreed->number);
 }
 
 void DrivenPlans::published(const coordination::Traffic& traffic) {
   Car& car = cars_[traffic.vehicle];
+  car.announced = traffic.running;
   if (has_newest_plan(car)) return;
   car.is_mistaken = true;
   if (traffic.step.value >= car.missed_since.value + 2) {
@@ -35,11 +43,27 @@ void DrivenPlans::published(const coordination::Traffic& traffic) {
   }
 }
 
+/// Where a vehicle stands after its plan, unless its controller is mistaken or does not know
+/// either.
+void DrivenPlans::note_standing(Car& car, const coordination::Report& report) {
+  car.stands.reset();
+  if (!car.driven || !car.driven->areas || !car.announced) return;
+  const coordination::OccupiedAreas& areas = *car.driven->areas;
+  const bool has_run_out = report.step.value >= areas.first.value + areas.areas_m.size();
+  const bool stands = car.announced->first == report.step && car.announced->areas_m.empty();
+  if (has_run_out && stands && has_newest_plan(car) &&
+      report.reason != coordination::FallbackReason::kDeviation) {
+    car.stands = car.announced;
+  }
+}
+
 void DrivenPlans::reported(const coordination::Report& report, const coordination::Plan* in_force) {
   Car& car = cars_[report.vehicle];
+  note_standing(car, report);
   if (report.status == coordination::StepStatus::kPlanned) {
     if (has_newest_plan(car)) car.missed_since = report.step;
     Agreed agreed{.number = ++car.num_agreed,
+                  .begin = (report.step.value + 1) * period_,
                   .end = in_force->end(),
                   .last_pose = in_force->pose_at(in_force->end()),
                   .areas = std::nullopt};
@@ -52,9 +76,21 @@ void DrivenPlans::reported(const coordination::Report& report, const coordinatio
       report.status == coordination::StepStatus::kStandby) {
     car.is_mistaken = false;
   }
+  note_sight(car, report);
   for (Sent& sent : car.sent) {
     if (!sent.plan) sent.plan = car.agreed;
   }
+}
+
+/// What the controller sees after the vehicle has changed over late.
+void DrivenPlans::note_sight(Car& car, const coordination::Report& report) const {
+  const Nanoseconds at = report.step.value * period_;
+  if (at <= car.late_change.at) return;
+  if (report.reason == coordination::FallbackReason::kDeviation && car.late_change.at != 0 &&
+      (car.late_change.is_unseen_since || at <= car.late_change.at + 2 * period_)) {
+    car.out_of_reach_until = at + kAfterwards;
+  }
+  car.late_change.is_unseen_since = false;
 }
 
 /// The plan in force where nothing new has been agreed: the same as before, an older one that the
@@ -69,7 +105,7 @@ DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const coordinatio
   if (is_same(car.agreed)) return car.agreed;
   const auto found = std::ranges::find_if(car.sent, is_same, &Sent::plan);
   if (found != car.sent.end()) return found->plan;
-  const AgreedPlan received = plan_of(car, car.newest_valid);
+  const AgreedPlan received = plan_of(car, car.received.newest());
   Agreed anchored{.number = received ? received->number : car.num_agreed,
                   .end = in_force.end(),
                   .last_pose = last_pose,
@@ -82,7 +118,7 @@ DrivenPlans::AgreedPlan DrivenPlans::kept_plan(const Car& car, const coordinatio
 
 void DrivenPlans::received(const TrajectoryCommand& command) {
   Car& car = cars_[{command.vehicle_id}];
-  car.received.emplace_back(command.valid_after_stamp, command.create_stamp);
+  car.received.add(command);
 }
 
 void DrivenPlans::died(VehicleId vehicle, Nanoseconds at) {
@@ -90,7 +126,7 @@ void DrivenPlans::died(VehicleId vehicle, Nanoseconds at) {
   car.out_of_reach_until = at + kAfterwards;
   car.driven = nullptr;
   car.follows = 0;
-  car.received.clear();
+  car.received.drop_waiting();
 }
 
 DrivenPlans::AgreedPlan DrivenPlans::plan_of(const Car& car, Nanoseconds create) {
@@ -99,11 +135,33 @@ DrivenPlans::AgreedPlan DrivenPlans::plan_of(const Car& car, Nanoseconds create)
 }
 
 bool DrivenPlans::has_dropped_plan(const Car& car, Nanoseconds tick) const {
-  const AgreedPlan newest = plan_of(car, car.newest_valid);
+  const AgreedPlan newest = plan_of(car, car.received.newest());
   if (car.follows != 0 || car.is_commanded_to_stand || !newest || !newest->areas) return false;
   const bool has_run_out =
       tick / period_ >= newest->areas->first.value + newest->areas->areas_m.size();
-  return !has_run_out && tick >= car.newest_valid + kCommandLifetime;
+  return !has_run_out && tick >= car.received.usable_until();
+}
+
+bool DrivenPlans::has_all_that_was_sent(const Car& car) {
+  const Sent& newest = car.sent.back();
+  const bool has_copy = newest.usable_until > newest.create + kCommandLifetime;
+  const bool was_stopped_before_copy = !has_copy && car.controller_stopped >= newest.at &&
+                                       car.controller_stopped <= newest.at + kCopyPause;
+  return newest.create == car.received.newest() &&
+         newest.usable_until <= car.received.usable_until() && !was_stopped_before_copy;
+}
+
+void DrivenPlans::judge_drop(VehicleId vehicle, Car& car, Nanoseconds tick,
+                             Violations& violations) {
+  if (!has_dropped_plan(car, tick)) return;
+  if (!has_all_that_was_sent(car)) {
+    car.out_of_reach_until = tick + kAfterwards;
+  } else if (!is_out_of_reach(vehicle, tick) && disobeyed_.insert(vehicle).second) {
+    violations.push_back({.at = tick,
+                          .check = "commands",
+                          .text = "vehicle " + std::to_string(vehicle.value) +
+                                  " drops its plan, and its controller has sent nothing more"});
+  }
 }
 
 bool DrivenPlans::is_out_of_reach(VehicleId vehicle, Nanoseconds at) const {
@@ -119,29 +177,38 @@ bool DrivenPlans::is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick)
 void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows,
                          Violations& violations) {
   Car& car = cars_[vehicle];
-  std::erase_if(car.received, [&](const std::pair<Nanoseconds, Nanoseconds>& command) {
-    const auto& [valid_after, create] = command;
-    if (valid_after > tick) return false;
-    car.newest_valid = std::max(car.newest_valid, create);
-    return true;
-  });
+  car.received.take_valid(tick);
   const bool changes = follows != car.follows;
   car.follows = follows;
   if (has_newest_plan(car)) car.is_mistaken = false;
   const bool is_lost = car.is_mistaken && tick / period_ >= car.missed_since.value + 2;
-  if (is_lost || has_dropped_plan(car, tick)) car.out_of_reach_until = tick + kAfterwards;
+  if (is_lost) car.out_of_reach_until = tick + kAfterwards;
+  if (car.late_change.is_unseen_since && tick < car.late_change.at + kAfterwards) {
+    car.out_of_reach_until = std::max(car.out_of_reach_until, tick + kVehiclePeriod);
+  }
+  judge_drop(vehicle, car, tick, violations);
   judge_order(vehicle, car, tick, violations);
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
   if (!plan || plan == car.driven) return;
+  if (is_change_late(car, plan, tick)) car.late_change = {.at = tick, .is_unseen_since = true};
   car.driven = plan;
+  car.stands.reset();
   judge_pairs(vehicle, tick, violations);
+}
+
+/// The plan was commanded before it began; the vehicle, which drove another one, has not received
+/// it until after that.
+bool DrivenPlans::is_change_late(const Car& car, const AgreedPlan& plan, Nanoseconds tick) {
+  if (!car.driven || plan->is_anchored || tick < plan->begin + kVehiclePeriod) return false;
+  return std::ranges::any_of(
+      car.sent, [&](const Sent& sent) { return sent.plan == plan && sent.at < plan->begin; });
 }
 
 void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,
                               Violations& violations) {
   if (car.follows == 0) return;
-  if (car.follows >= car.newest_valid || !disobeyed_.insert(vehicle).second) return;
+  if (car.follows >= car.received.newest() || !disobeyed_.insert(vehicle).second) return;
   violations.push_back({.at = tick,
                         .check = "commands",
                         .text = "vehicle " + std::to_string(vehicle.value) +
@@ -150,14 +217,14 @@ void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,
 
 void DrivenPlans::judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations) {
   const Car& car = cars_.at(vehicle);
-  if (!is_judged(vehicle, car, tick)) return;
+  if (!is_judged(vehicle, car, tick) || car.driven->is_anchored) return;
   const coordination::OccupiedAreas& areas = *car.driven->areas;
   const StepIndex now{tick / period_};
   for (const auto& [other, its] : cars_) {
     if (other == vehicle || !is_judged(other, its, tick)) continue;
-    if (car.driven->is_anchored && its.driven->is_anchored) continue;
-    const StepIndex from = std::max({now, areas.first, its.driven->areas->first});
-    if (coordination::are_free(areas, *its.driven->areas, from, horizon_steps_) ||
+    const coordination::OccupiedAreas& its_areas = its.stands ? *its.stands : *its.driven->areas;
+    const StepIndex from = std::max({now, areas.first, its_areas.first});
+    if (coordination::are_free(areas, its_areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {
       continue;
     }

@@ -13,16 +13,19 @@
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/plan.hpp"
 #include "planner/coordination/report.hpp"
+#include "vehicle_sim/closed_loop/received_commands.hpp"
 #include "vehicle_sim/closed_loop/violation.hpp"
 
 namespace hlc::closed_loop {
 
 /// Which plan each vehicle truly drives: the one whose command it follows. What is judged:
 ///
-/// * **driven**: whenever a vehicle changes over to another plan, it is free of the plans that the
-///   others drive from then on, until both stand. (Where two vehicles stand, about which nobody has
-///   agreed, is a matter of footprints.)
-/// * **commands**: a vehicle follows the newest command that it has received and that is valid.
+/// * **driven**: whenever a vehicle changes over to another agreed plan, it is free of what the
+///   others drive from then on, until both stand. A plan that is anchored anew where a vehicle
+///   stands has been agreed by nobody: of that the footprints are judged. Once the plan of a
+///   vehicle has run out, the vehicle stands where its controller announces.
+/// * **commands**: a vehicle follows the newest command that it has received and that is valid; and
+///   its controller has sent it all that it needs to drive the plan to its end.
 ///
 /// **The limits of what controllers can promise** (plan_in_force.hpp). A controller is *mistaken*
 /// about its vehicle if it publishes traffic while the vehicle has not received the plan in force,
@@ -30,7 +33,11 @@ namespace hlc::closed_loop {
 /// not driven. A vehicle is *out of reach*
 ///   * while its controller is mistaken, from the second step after the first plan that it has not
 ///     received;
-///   * while it has dropped its command before the end of the plan, since nothing newer has come;
+///   * while it has dropped its command before the end of the plan, since what was sent has not
+///     arrived, or the controller was stopped between a command and its copy;
+///   * when it has received a plan that was sent in time only after that had begun, and has changed
+///     over to it late, that is on a way that nobody could know: until its controller's next step,
+///     and longer if it is then seen off the plan (kDeviation in the next two steps);
 ///   * when its process dies;
 /// and for kAfterwards longer, while others may drive what they have agreed to meanwhile. Only what
 /// the vehicle has not received counts: commands that it has it must follow.
@@ -45,20 +52,31 @@ class DrivenPlans {
     cars_[prediction.vehicle].predicted = prediction;
   }
   void published(const coordination::Traffic& traffic);
-  void commanded(const TrajectoryCommand& command);
+  /// @param at  true time
+  void commanded(const TrajectoryCommand& command, Nanoseconds at);
   /// What was commanded before in the same step is of the plan in force after it.
   void reported(const coordination::Report& report, const coordination::Plan* in_force);
   void received(const TrajectoryCommand& command);
   /// @param follows  create_stamp of the command that is followed; 0: none
   void driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows, Violations& violations);
   void died(VehicleId vehicle, Nanoseconds at);
+  /// Its controller's process has ended or is suspended. @param at  true time
+  void controller_stopped(VehicleId vehicle, Nanoseconds at) {
+    cars_[vehicle].controller_stopped = at;
+  }
 
+  /// The vehicle has received the plan that was agreed last.
+  [[nodiscard]] bool has_plan_in_force(VehicleId vehicle) const {
+    const auto car = cars_.find(vehicle);
+    return car == cars_.end() || has_newest_plan(car->second);
+  }
   [[nodiscard]] bool is_out_of_reach(VehicleId vehicle, Nanoseconds at) const;
 
  private:
   /// A plan as its vehicle has announced it, or to stand where it stands.
   struct Agreed {
     std::uint64_t number{};
+    Nanoseconds begin{};
     StepIndex end;  ///< with the last pose, the identity of a plan
     Pose last_pose;
     std::optional<coordination::OccupiedAreas> areas;  ///< none: not known to anybody
@@ -67,29 +85,43 @@ class DrivenPlans {
   using AgreedPlan = std::shared_ptr<const Agreed>;
   struct Sent {
     Nanoseconds create{};
+    Nanoseconds at{};
+    Nanoseconds usable_until{};  ///< with its copy, if that has been sent
     AgreedPlan plan;
+  };
+  struct LateChange {
+    Nanoseconds at{};        ///< tick of the last one; 0: none
+    bool is_unseen_since{};  ///< the controller has made no step since then
   };
   struct Car {
     std::optional<coordination::Prediction> predicted;
+    std::optional<coordination::OccupiedAreas> announced;  ///< in its last traffic
+    std::optional<coordination::OccupiedAreas> stands;     ///< announced after the driven plan
     AgreedPlan agreed{std::make_shared<const Agreed>()};
     std::uint64_t num_agreed{};
     StepIndex missed_since;  ///< step of the first plan that the vehicle has not received
     bool is_mistaken{};
     std::deque<Sent> sent;  ///< the newest last
     bool is_commanded_to_stand{};
-    /// Valid from, create; not yet valid
-    std::vector<std::pair<Nanoseconds, Nanoseconds>> received;
-    Nanoseconds newest_valid{};  ///< create, of those received
+    ReceivedCommands received;
+    Nanoseconds controller_stopped{};
     Nanoseconds follows{};
     AgreedPlan driven;
+    LateChange late_change;
     Nanoseconds out_of_reach_until{};
   };
 
+  static void note_standing(Car& car, const coordination::Report& report);
   [[nodiscard]] static AgreedPlan plan_of(const Car& car, Nanoseconds create);
   [[nodiscard]] static bool has_newest_plan(const Car& car);
   [[nodiscard]] static AgreedPlan kept_plan(const Car& car, const coordination::Report& report,
                                             const coordination::Plan& in_force);
+  [[nodiscard]] static bool is_change_late(const Car& car, const AgreedPlan& plan,
+                                           Nanoseconds tick);
+  void note_sight(Car& car, const coordination::Report& report) const;
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
+  [[nodiscard]] static bool has_all_that_was_sent(const Car& car);
+  void judge_drop(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
   [[nodiscard]] bool is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick) const;
   void judge_order(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
   void judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations);

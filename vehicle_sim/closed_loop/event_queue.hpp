@@ -43,7 +43,14 @@ class EventQueue {
 
   /// @param at  now if it is in the past
   void add(Nanoseconds at, Event event) {
-    heap_.push_back({std::max(at, now_), count_++, std::move(event)});
+    if (free_.empty()) {
+      free_.push_back(static_cast<std::uint32_t>(events_.size()));
+      events_.emplace_back();
+    }
+    const std::uint32_t place = free_.back();
+    free_.pop_back();
+    events_[place] = std::move(event);
+    heap_.push_back({std::max(at, now_), count_++, place});
     std::ranges::push_heap(heap_, later);
   }
 
@@ -51,10 +58,11 @@ class EventQueue {
   [[nodiscard]] Event take() {
     HLC_DEMAND(!heap_.empty());
     std::ranges::pop_heap(heap_, later);
-    Entry entry = std::move(heap_.back());
+    const Entry entry = heap_.back();
     heap_.pop_back();
     now_ = entry.at;
-    return std::move(entry.event);
+    free_.push_back(entry.place);
+    return std::move(events_[entry.place]);
   }
   /// Events so far.
   [[nodiscard]] std::uint64_t count() const { return count_; }
@@ -62,10 +70,10 @@ class EventQueue {
   explicit EventQueue(Nanoseconds start) : now_(start) {}
 
  private:
-  struct Entry {
+  struct Entry {  // small: a heap moves its entries
     Nanoseconds at{};
     std::uint64_t number{};
-    Event event;
+    std::uint32_t place{};
   };
   static bool later(const Entry& a, const Entry& b) {
     return a.at != b.at ? a.at > b.at : a.number > b.number;
@@ -74,6 +82,8 @@ class EventQueue {
   Nanoseconds now_;
   std::uint64_t count_{};
   std::vector<Entry> heap_;
+  std::vector<Event> events_;  ///< by place
+  std::vector<std::uint32_t> free_;
 };
 
 }  // namespace hlc::closed_loop

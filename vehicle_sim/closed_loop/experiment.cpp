@@ -74,7 +74,7 @@ class Lab {
                           .loop = std::move(loop),
                           .choice = std::move(choice)});
     }
-    std::ranges::sort(members_, coordination::plans_before,
+    std::ranges::sort(members_, scenario.profile.strategies.plans_before,
                       [](const Member& member) { return VehicleId{member.id}; });
   }
 

@@ -23,8 +23,8 @@ constexpr Nanoseconds kLastFaultOnCircle = 7 * kNanosecondsPerSecond;
 constexpr Nanoseconds kLastLogicalFault = 6 * kNanosecondsPerSecond;
 
 FaultStyle any_style(SeededRandom& random) {
-  constexpr std::array kStyles{FaultStyle::kScattered, FaultStyle::kBurst, FaultStyle::kLossy,
-                               FaultStyle::kRestart, FaultStyle::kBorder};
+  constexpr std::array kStyles{FaultStyle::kScattered, FaultStyle::kBurst,  FaultStyle::kLossy,
+                               FaultStyle::kRestart,   FaultStyle::kBorder, FaultStyle::kDeaf};
   return kStyles[random.below(kStyles.size())];
 }
 
@@ -45,11 +45,14 @@ FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::mo
   const std::filesystem::path circle = settings_.scenario_folder / "circle.yaml";
   const scenario::Scenario paper =
       scenario::read_scenario({.file = settings_.scenario_folder / "paper_three_cars.yaml"});
+  const controller::PreparedSubgraph on_paper = scenario::prepare_subgraph_of(paper);
   for (std::size_t cars = kFewestCars; cars <= kMostCars; ++cars) {
     if (settings_.cars != 0 && settings_.cars != cars) continue;
-    scenarios_.emplace(cars,
-                       Scenarios{.circle = scenario::read_scenario({.file = circle, .cars = cars}),
-                                 .paper = crowded(paper, cars)});
+    scenario::Scenario on_circle = scenario::read_scenario({.file = circle, .cars = cars});
+    controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(on_circle);
+    scenarios_.emplace(
+        cars, Scenarios{.circle = {std::move(on_circle), std::move(prepared)},
+                        .paper = {.scenario = crowded(paper, cars), .subgraph = on_paper}});
   }
 }
 
@@ -59,9 +62,11 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
   auto chosen = scenarios_.begin();
   std::advance(chosen, static_cast<std::ptrdiff_t>(random.below(scenarios_.size())));
   const bool is_paper = random.chance(0.7);
-  the_case.scenario = is_paper ? scenario::with_random_starts(chosen->second.paper, random.next())
-                               : chosen->second.circle;
+  const Prepared& drawn = is_paper ? chosen->second.paper : chosen->second.circle;
+  the_case.scenario =
+      is_paper ? scenario::with_random_starts(drawn.scenario, random.next()) : drawn.scenario;
   FaultRunSettings& run = the_case.run;
+  run.lab.prepared = drawn.subgraph;
   run.lab.seed = seed;
   run.lab.is_logical = random.chance(0.2);
   // Logical time is for one machine.

@@ -63,9 +63,13 @@ class FaultCampaign {
 
  private:
   FaultCampaignSettings settings_;
+  struct Prepared {
+    scenario::Scenario scenario;
+    controller::PreparedSubgraph subgraph;
+  };
   struct Scenarios {
-    scenario::Scenario circle;
-    scenario::Scenario paper;
+    Prepared circle;
+    Prepared paper;
   };
   std::map<std::size_t, Scenarios> scenarios_;  ///< by number of cars
 };

@@ -50,6 +50,10 @@ class Draw {
         for (std::size_t i = 2 + random_.below(4); i > 0; --i) add_at_border(faults);
         scatter(random_.below(2), faults);
         break;
+      case FaultStyle::kDeaf:
+        for (std::size_t i = 1 + random_.below(4); i > 0; --i) add_deafness(faults);
+        scatter(random_.below(2), faults);
+        break;
     }
     std::ranges::stable_sort(faults, {}, &Fault::begin);
     return faults;
@@ -117,6 +121,26 @@ class Draw {
     fault.share = random_.chance(0.2) ? 1.0 : random_.share();
     const Nanoseconds steps = (1 + random_.below(2)) * 200 * kMs;
     fault.amount = static_cast<std::int64_t>(random_.between(steps - 20 * kMs, steps + 20 * kMs));
+    faults.push_back(fault);
+  }
+
+  /// Of two controllers: of both, with losses all the time, or of one, for long.
+  void add_deafness(std::vector<Fault>& faults) {
+    const auto any_controller = [this] {
+      return controller_name(settings_.vehicle_ids[random_.below(settings_.vehicle_ids.size())]);
+    };
+    const bool is_mutual = random_.chance(0.6);
+    Fault fault{.kind = is_mutual ? FaultKind::kWithhold : FaultKind::kCut,
+                .begin = settings_.first,
+                .end = settings_.last,
+                .process = any_controller(),
+                .peer = any_controller()};
+    if (!is_asked_for(fault.kind) || fault.process == fault.peer) return;
+    fault.share = is_mutual ? 0.2 + 0.6 * random_.share() : 1.0;
+    if (!is_mutual) fault.begin += random_.below((fault.end - fault.begin) / 2);
+    faults.push_back(fault);
+    if (!is_mutual) return;
+    std::swap(fault.process, fault.peer);
     faults.push_back(fault);
   }
 

@@ -114,7 +114,9 @@ class FaultRun {
   void change(const Fault& fault, bool begins) {
     judges_.trace([&] { return (begins ? "begin of " : "end of ") + to_string(fault); });
     begins ? begin(fault, lab_) : finish(fault, lab_);
-    if (begins && fault.kind == FaultKind::kKill) judges_.killed(lab_.seat(fault.process));
+    if (!begins || (fault.kind != FaultKind::kKill && fault.kind != FaultKind::kFreeze)) return;
+    judges_.held_up(lab_.seat(fault.process));
+    if (fault.kind == FaultKind::kKill) judges_.killed(lab_.seat(fault.process));
   }
 
   void check() {

@@ -89,8 +89,19 @@ bool FootprintsCheck::touches_first_time(const Cars::value_type& a, const Cars::
 
 // --- plans --------------------------------------------------------------------------------------
 
-bool PlansCheck::has_run_out(const InForce& plan, StepIndex now) const {
-  return now.value > plan.last_report.value + horizon_steps_ + 1 + coordination::kSilentSteps;
+bool PlansCheck::is_relied_on(const InForce& plan, StepIndex now) const {
+  const bool has_run_out =
+      now.value > plan.last_report.value + horizon_steps_ + 1 + coordination::kSilentSteps;
+  const bool is_silent = now.value > plan.last_report.value + 1;
+  return !has_run_out && (plan.is_received || !is_silent);
+}
+
+/// A vehicle that stands elsewhere than its plan says: it has been anchored there, and may agree to
+/// a new plan in the same step.
+void PlansCheck::published(const coordination::Traffic& traffic) {
+  const auto found = in_force_.find(traffic.vehicle);
+  if (found == in_force_.end() || !traffic.running.areas_m.empty()) return;
+  if (traffic.running.final_area_m != found->second.areas.final_area_m) in_force_.erase(found);
 }
 
 void PlansCheck::reported(const coordination::Report& report, const coordination::Plan* in_force,
@@ -111,13 +122,14 @@ void PlansCheck::reported(const coordination::Report& report, const coordination
       predicted->second.step != report.step) {
     return;
   }
-  coordination::OccupiedAreas& areas = in_force_[vehicle].areas;
-  in_force_[vehicle].last_report = report.step;
-  areas = std::move(predicted->second.areas);
+  const coordination::OccupiedAreas& areas =
+      (in_force_[vehicle] = {.areas = std::move(predicted->second.areas),
+                             .last_report = report.step})
+          .areas;
   predicted_.erase(predicted);
   for (const auto& [other, plan] : in_force_) {
     const StepIndex from = std::max(areas.first, plan.areas.first);
-    if (other == vehicle || has_run_out(plan, report.step) ||
+    if (other == vehicle || !is_relied_on(plan, report.step) ||
         coordination::are_free(areas, plan.areas, from, horizon_steps_) ||
         !met_.insert(std::minmax(vehicle, other)).second) {
       continue;

@@ -90,7 +90,9 @@ class FootprintsCheck {
 ///
 /// A vehicle that was pushed off its plan, or is not seen (FallbackReason::kDeviation), drives
 /// areas that no other vehicle agreed to (rule 4 of plan_in_force.hpp): it is ignored until its
-/// next new plan. So is one whose plan has been anchored where it stands.
+/// next new plan. So is one whose plan has been anchored where it stands, and, while its controller
+/// is silent, one that has never received its plan: the others keep clear of all that it can reach
+/// from where they see it, not of a plan that it does not drive.
 class PlansCheck {
  public:
   explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}
@@ -98,8 +100,14 @@ class PlansCheck {
   void predicted(const coordination::Prediction& prediction) {
     predicted_[prediction.vehicle] = prediction;
   }
+  void published(const coordination::Traffic& traffic);
   void reported(const coordination::Report& report, const coordination::Plan* in_force,
                 Nanoseconds at, Violations& violations);
+  /// Whether the vehicle has received its plan in force.
+  void received(VehicleId vehicle, bool is_received) {
+    const auto found = in_force_.find(vehicle);
+    if (found != in_force_.end()) found->second.is_received = is_received;
+  }
 
  private:
   using Pair = std::pair<VehicleId, VehicleId>;
@@ -107,8 +115,9 @@ class PlansCheck {
   struct InForce {
     coordination::OccupiedAreas areas;
     StepIndex last_report;
+    bool is_received{true};
   };
-  [[nodiscard]] bool has_run_out(const InForce& plan, StepIndex now) const;
+  [[nodiscard]] bool is_relied_on(const InForce& plan, StepIndex now) const;
 
   std::size_t horizon_steps_;
   std::map<VehicleId, coordination::Prediction> predicted_;

@@ -92,6 +92,7 @@ class MiddlewareHost : public Host {
     publish(kVehicleCommands, std::get<TrajectoryCommand>(command));
   }
   void perform(const ReadyStatus& status) const { publish(kReady, status); }
+  void announce_tick(const ReadyStatus& status) const { perform(status); }
   void perform(const ParameterRequest& request) const { publish(kRequests, request); }
 
   /// True once after new readers were created: matches must be checked again.

@@ -61,15 +61,16 @@ middleware::MiddlewareMachine middleware(std::uint8_t id, const LabSettings& set
 high_level_controller::HlcMachine controller(const scenario::Scenario& scenario, std::uint8_t id,
                                              const LabSettings& settings) {
   const bool keeps_commands = settings.transport == Transport::kLoopback;
-  const high_level_controller::HlcRules rules =
+  high_level_controller::HlcRules rules =
       settings.is_logical
           ? high_level_controller::rules_in_logical_time(keeps_commands)
           : high_level_controller::rules_in_real_time(
                 keeps_commands, high_level_controller::StepDeadlines{}, kStartupTimeout);
+  rules.warms_up = false;
   return {{.rules = rules,
            .startup_timeout = kStartupTimeout,
            .reconfiguration = scenario.reconfiguration},
-          scenario::make_controller(scenario, VehicleId{id})};
+          scenario::make_controller(scenario, VehicleId{id}, *settings.prepared)};
 }
 
 }  // namespace
@@ -90,6 +91,7 @@ std::string name_of(const ProcessKey& key) {
 
 ProcessFactory::ProcessFactory(const scenario::Scenario& scenario, const LabSettings& settings)
     : scenario_(&scenario), settings_(settings) {
+  if (!settings_.prepared) settings_.prepared = scenario::prepare_subgraph_of(scenario);
   for (const scenario::ScenarioVehicle& one : scenario.vehicles) ids_.push_back(one.id.value);
 }
 

@@ -28,6 +28,8 @@ struct LabSettings {
   bool is_logical{};
   Transport transport{};
   std::uint64_t steps{100};  ///< of the run in logical time; in real time it is interrupted
+  /// The scenario's subgraph; none: each run prepares it.
+  std::optional<controller::PreparedSubgraph> prepared{};
 };
 
 /// Creates the processes of a scenario's run, each as its program would: machine, rules, endpoints.

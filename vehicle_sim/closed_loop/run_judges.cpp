@@ -71,6 +71,7 @@ void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time,
   }
   if (!stopped_.contains(vehicle)) {
     driven_.driven(id, tick, sample.command_create, result_.violations);
+    plans_.received(id, driven_.has_plan_in_force(id));
     if (driven_.is_out_of_reach(id, tick)) announced_.forgive(id, tick);
     announced_.driven(id, tick, sample.pose, sample.speed_mps, result_.violations);
   }
@@ -107,8 +108,13 @@ void RunJudges::on_report(const ReportRecord& record, const coordination::Plan* 
 }
 
 void RunJudges::on_command(const TrajectoryCommand& command) {
-  driven_.commanded(command);
+  driven_.commanded(command, lab_->true_time());
   add_to_hash(command.create_stamp);
+}
+
+void RunJudges::held_up(const Seat& seat) {
+  if (seat.key.role != Role::kController) return;
+  driven_.controller_stopped(VehicleId{seat.key.vehicle}, lab_->true_time());
 }
 
 void RunJudges::killed(const Seat& seat) {
@@ -122,13 +128,20 @@ void RunJudges::killed(const Seat& seat) {
 void RunJudges::changed(const Seat& seat) {
   if (!seat.exit_code) {
     reasons_.started(seat.name);
-    if (seat.key.role == Role::kVehicle) footprints_.came_back(seat.key.vehicle);
+    if (seat.key.role == Role::kVehicle) came_back(seat.key.vehicle);
     return trace([&] { return seat.name + " starts"; });
   }
   trace([&] { return seat.name + " ends with code " + std::to_string(*seat.exit_code); });
+  held_up(seat);
   reasons_.ended(seat.name, *seat.exit_code, lab_->now(), result_.violations);
   if (seat.key.role == Role::kVehicle) footprints_.ended(seat.key.vehicle);
   add_to_hash(static_cast<std::uint64_t>(*seat.exit_code));
+}
+
+/// It stands where it died, and its controller may not know that.
+void RunJudges::came_back(std::uint8_t vehicle) {
+  footprints_.came_back(vehicle);
+  announced_.forgive(VehicleId{vehicle}, lab_->true_time());
 }
 
 void RunJudges::report_violation(const std::string& text) {

@@ -41,6 +41,7 @@ class RunJudges final : public RunObserver {
   void on_traffic(const coordination::Traffic& traffic) override {
     driven_.published(traffic);
     announced_.published(traffic);
+    plans_.published(traffic);
   }
   void on_prediction(const coordination::Prediction& prediction) override;
   void on_report(const ReportRecord& record, const coordination::Plan* in_force) override;
@@ -50,6 +51,8 @@ class RunJudges final : public RunObserver {
   void on_stop_symbol(std::uint8_t vehicle) override { stopped_.insert(vehicle); }
 
   void killed(const Seat& seat);
+  /// It has been killed or suspended.
+  void held_up(const Seat& seat);
   /// It has begun or ended.
   void changed(const Seat& seat);
   void report_violation(const std::string& text);
@@ -69,6 +72,7 @@ class RunJudges final : public RunObserver {
   }
 
  private:
+  void came_back(std::uint8_t vehicle);
   void add_to_hash(std::uint64_t value);
 
   Nanoseconds period_;

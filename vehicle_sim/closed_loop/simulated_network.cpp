@@ -41,8 +41,8 @@ NodeId SimulatedNetwork::join(const NodeDescription& description) {
     connect(other, id);
     for (const Domain domain : nodes_[id].domains) {
       if (!nodes_[other].domains.contains(domain)) continue;
-      nodes_[id].sights[index_of(domain)][other].is_open = false;
-      nodes_[other].sights[index_of(domain)][id].is_open = false;
+      new_sight(id, other, domain).is_open = false;
+      new_sight(other, id, domain).is_open = false;
       update_sight(id, other, domain);
       update_sight(other, id, domain);
     }
@@ -75,18 +75,18 @@ void SimulatedNetwork::leave(NodeId node) {
   for (NodeId other = 0; other < nodes_.size(); ++other) {
     for (const Domain domain : nodes_[node].domains) {
       auto& sights = nodes_[other].sights[index_of(domain)];
-      const auto sight = sights.find(node);
-      if (sight == sights.end() || nodes_[other].is_gone) continue;
-      const bool is_reachable = sight->second.is_open && !is_cut(node, other, domain);
+      if (node >= sights.size() || !sights[node].is_known || nodes_[other].is_gone) continue;
+      Sight& sight = sights[node];
+      const bool is_reachable = sight.is_open && !is_cut(node, other, domain);
       update_sight(other, node, domain);
-      if (!is_reachable || !sight->second.is_seen) continue;
-      ++sight->second.generation;
+      if (!is_reachable || !sight.is_seen) continue;
+      ++sight.generation;
       queue_->add(queue_->now() + options_.most_delay,
                   {.what = Happening::kSight,
                    .node = other,
                    .other = node,
                    .detail = static_cast<std::uint32_t>(domain),
-                   .generation = sight->second.generation});
+                   .generation = sight.generation});
     }
   }
 }
@@ -113,7 +113,9 @@ void SimulatedNetwork::thaw(NodeId node) {
 void SimulatedNetwork::miss_some(NodeId node) {
   SeededRandom random(mixed(options_.seed, ++num_sights_ + (1ULL << 32U)));
   for (std::uint32_t domain = 0; domain < kNumDomains; ++domain) {
-    for (auto& [other, sight] : nodes_[node].sights[domain]) {
+    auto& sights = nodes_[node].sights[domain];
+    for (NodeId other = 0; other < sights.size(); ++other) {
+      Sight& sight = sights[other];
       if (!sight.is_seen || !sight.is_open || random.chance(0.5)) continue;
       sight.is_open = false;
       ++sight.generation;
@@ -158,10 +160,16 @@ bool SimulatedNetwork::is_cut(NodeId from, NodeId to, Domain domain) const {
 
 // --- discovery ----------------------------------------------------------------------------------
 
+SimulatedNetwork::Sight& SimulatedNetwork::new_sight(NodeId observer, NodeId other, Domain domain) {
+  auto& sights = nodes_[observer].sights[index_of(domain)];
+  if (sights.size() <= other) sights.resize(other + 1);
+  sights[other].is_known = true;
+  return sights[other];
+}
+
 bool SimulatedNetwork::sees(NodeId observer, NodeId other, Domain domain) const {
   const auto& sights = nodes_[observer].sights[index_of(domain)];
-  const auto found = sights.find(other);
-  return found != sights.end() && found->second.is_seen;
+  return other < sights.size() && sights[other].is_seen;
 }
 
 void SimulatedNetwork::update_sights_of(NodeId other) {
@@ -176,9 +184,8 @@ void SimulatedNetwork::update_sights_of(NodeId other) {
 /// Plans when the observer will find or miss the other one, if nothing changes until then.
 void SimulatedNetwork::update_sight(NodeId observer, NodeId other, Domain domain) {
   auto& sights = nodes_[observer].sights[index_of(domain)];
-  const auto found = sights.find(other);
-  if (found == sights.end()) return;
-  Sight& sight = found->second;
+  if (other >= sights.size() || !sights[other].is_known) return;
+  Sight& sight = sights[other];
   const Node& node = nodes_[other];
   const bool is_open = !node.is_gone && !node.is_frozen && !is_cut(other, observer, domain);
   if (is_open == sight.is_open) return;
@@ -230,9 +237,10 @@ void SimulatedNetwork::note_names(NodeId observer, NodeId other, Domain domain) 
   Node& node = nodes_[observer];
   const std::string& name = nodes_[other].name;
   const auto& sights = node.sights[index_of(domain)];
-  const bool is_there = std::ranges::any_of(sights, [&](const auto& entry) {
-    return entry.second.is_seen && nodes_[entry.first].name == name;
-  });
+  bool is_there = false;
+  for (NodeId one = 0; one < sights.size() && !is_there; ++one) {
+    is_there = sights[one].is_seen && nodes_[one].name == name;
+  }
   machine::Participants& participants = node.participants[index_of(domain)];
   if (is_there) {
     participants.alive.insert(name);
@@ -259,8 +267,9 @@ std::set<std::string> SimulatedNetwork::writers(NodeId node, std::size_t topic) 
   const Topic& wanted = nodes_[node].reads[topic];
   const Domain domain = rules_of(wanted.id, options_.transport).domain;
   std::set<std::string> names;
-  for (const auto& [other, sight] : nodes_[node].sights[index_of(domain)]) {
-    if (sight.is_seen && std::ranges::count(nodes_[other].writes, wanted) > 0) {
+  const auto& sights = nodes_[node].sights[index_of(domain)];
+  for (NodeId other = 0; other < sights.size(); ++other) {
+    if (sights[other].is_seen && std::ranges::count(nodes_[other].writes, wanted) > 0) {
       names.insert(nodes_[other].name);
     }
   }

@@ -113,6 +113,7 @@ class SimulatedNetwork {
 
  private:
   struct Sight {
+    bool is_known{};     ///< there is such a participant
     bool is_open{true};  ///< signs of life pass
     bool is_seen{};
     std::uint32_t generation{};
@@ -129,8 +130,8 @@ class SimulatedNetwork {
     std::vector<std::vector<std::uint32_t>> outlets;
     /// By topic written: messages for late joiners.
     std::vector<std::deque<SharedMessage>> kept;
-    /// By domain: of others, as this one sees them.
-    std::array<std::map<NodeId, Sight>, kNumDomains> sights;
+    /// By domain and node: of others, as this one sees them.
+    std::array<std::vector<Sight>, kNumDomains> sights;
     std::array<machine::Participants, kNumDomains> participants;
   };
   struct Channel {
@@ -147,6 +148,7 @@ class SimulatedNetwork {
 
   void miss_some(NodeId node);
   void connect(NodeId from, NodeId to);
+  [[nodiscard]] Sight& new_sight(NodeId observer, NodeId other, Domain domain);
   [[nodiscard]] bool sees(NodeId observer, NodeId other, Domain domain) const;
   [[nodiscard]] bool is_cut(NodeId from, NodeId to, Domain domain) const;
   [[nodiscard]] bool passes(const Channel& channel) const;

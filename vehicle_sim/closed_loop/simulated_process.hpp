@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "hlc_bridge/machine/log_line.hpp"
-#include "hlc_bridge/machine/machine.hpp"
-#include "hlc_bridge/machine/pacing.hpp"
-#include "hlc_bridge/messages/exit_codes.hpp"
-#include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/machine/loop.hpp"
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "hlc_bridge/result/run_record.hpp"
 #include "planner/coordination/plan.hpp"
@@ -52,8 +45,8 @@ struct ProcessPlace {
   bool is_logical{};
 };
 
-/// A process of a run: one machine, with the loop of the shell (hlc_bridge/process/shell.hpp), but
-/// without waiting: it returns the time of its next turn.
+/// A process of a run: one machine, with the loop of every process (hlc_bridge/machine/loop.hpp).
+/// Instead of waiting it returns the time of its next turn.
 class SimulatedProcess {
  public:
   virtual ~SimulatedProcess() = default;
@@ -72,9 +65,8 @@ class SimulatedProcess {
 
 inline constexpr Nanoseconds kNoTurn = std::numeric_limits<Nanoseconds>::max();
 
-/// @tparam Host  the endpoints of the machine: its type `Machine`; description() of its topics;
-///     receive(topic, message, process); presence(); perform(action) for every action;
-///     perform(ReadyStatus) if the machine wants ticks in logical time
+/// @tparam Host  the host of the machine's loop, and in addition: its type `Machine`; description()
+///     of its topics; receive(topic, message, process)
 template <class Host>
 class MachineProcess final : public SimulatedProcess {
  public:
@@ -84,101 +76,61 @@ class MachineProcess final : public SimulatedProcess {
   MachineProcess(ProcessPlace place, Host host, M machine, Nanoseconds startup_timeout)
       : place_(place),
         host_(std::move(host)),
-        machine_(std::move(machine)),
-        pacing_(machine::run_time(place.is_logical).make_pacing(startup_timeout, wall())) {
-    host_.attach(place_, machine_);
+        loop_(place.network->name(place.node), std::move(machine),
+              machine::run_time(place.is_logical).make_pacing(startup_timeout, clocks().wall)) {
+    host_.attach(place_, loop_.machine());
   }
 
   // For the host.
-  void post(Event event) { mail_.push_back(std::move(event)); }
-  void post_urgent(Event event) {
-    mail_.push_back(std::move(event));
-    is_urgent_ = true;
-  }
-  void trigger(Nanoseconds next_start) { pacing_->on_trigger(next_start, wall()); }
+  void post(Event event) { loop_.post(std::move(event)); }
+  void post_urgent(Event event) { loop_.post_urgent(std::move(event)); }
+  void trigger(Nanoseconds next_start) { loop_.trigger(next_start, clocks().wall); }
 
   void receive(std::size_t topic, const Message& message) override {
     host_.receive(topic, message, *this);
   }
-  void presence_changed() override { has_presence_changed_ = true; }
-  void stop() override { post_urgent(machine::StopSignal{}); }
+  void presence_changed() override { loop_.presence_changed(); }
+  void stop() override { loop_.post_urgent(machine::StopSignal{}); }
 
   void turn() override {
     if (exit_code_) return;
-    if (std::exchange(has_presence_changed_, false)) machine_.on(host_.presence());
-    is_urgent_ = false;
-    std::swap(mail_, read_);
-    for (Event& event : read_) machine_.on(std::move(event));
-    read_.clear();
-    const Instant clocks{.run = place_.run_clock->at(*place_.now), .wall = wall()};
-    for (const auto& action : machine_.advance(pacing_->now(clocks))) {
-      std::visit([&](const auto& what) { host_.perform(what); }, action);
-    }
+    exit_code_ = loop_.iterate(
+        host_, [this] { return clocks(); }, [](const auto& access) { return access(); });
     if constexpr (requires { host_.take_change_of_endpoints(); }) {
-      has_presence_changed_ |= host_.take_change_of_endpoints();
+      if (host_.take_change_of_endpoints()) loop_.presence_changed();
     }
-    exit_code_ = machine_.exit_code();
     if constexpr (requires { host_.log_end(); }) {
       if (exit_code_) host_.log_end();
     }
-    if (exit_code_) return;
-    wake_ = machine_.wake_up();
-    pacing_->want(wake_.run);
-    announce(clocks.wall);
     clocks_changed();
   }
 
   void clocks_changed() override {
     if (exit_code_) return;
     const Nanoseconds now = *place_.now;
-    const Nanoseconds delay = pacing_->mail_delay();
-    enough_ = delay == 0 ? 1 : machine_.awaited();
-    wake_at_ = kNoTurn;
-    const auto wake_by = [&](const SimulatedClock& clock, std::optional<Nanoseconds> local) {
-      if (local) wake_at_ = std::min(wake_at_, clock.when(*local, now));
+    const WakeUp wake = loop_.wake_up();
+    const auto when = [now](const SimulatedClock& clock, std::optional<Nanoseconds> local) {
+      return local ? clock.when(*local, now) : kNoTurn;
     };
-    const WakeUp pacing = pacing_->wake_up();
-    wake_by(*place_.wall_clock, wake_.wall);
-    wake_by(*place_.wall_clock, pacing.wall);
-    wake_by(*place_.run_clock, pacing.run);
-    if (enough_ > 1) read_mail_at_ = now + delay;
+    wake_at_ = std::min(when(*place_.wall_clock, wake.wall), when(*place_.run_clock, wake.run));
+    read_mail_at_ = now + loop_.mail_delay().value_or(0);
   }
 
   [[nodiscard]] Nanoseconds next_turn() const override {
     if (exit_code_) return kNoTurn;
-    if (is_urgent_ || has_presence_changed_ || mail_.size() >= enough_ || pacing_->is_due()) {
-      return *place_.now;
-    }
-    if (enough_ > 1 && !mail_.empty()) return std::min(wake_at_, read_mail_at_);
-    return wake_at_;
+    if (loop_.has_work()) return *place_.now;
+    return loop_.has_mail() ? std::min(wake_at_, read_mail_at_) : wake_at_;
   }
   [[nodiscard]] std::optional<int> exit_code() const override { return exit_code_; }
 
  private:
-  [[nodiscard]] Nanoseconds wall() const { return place_.wall_clock->at(*place_.now); }
-
-  void announce(Nanoseconds wall) {
-    if constexpr (requires { host_.perform(ReadyStatus{}); }) {
-      if (pacing_->is_timed_out(wall)) {
-        host_.perform(machine::error(std::string(kLabControlName) +
-                                     " is not responding: no triggers received"));
-        exit_code_ = kExitDied;
-      } else if (const auto tick = pacing_->announcement(wall)) {
-        host_.perform(ReadyStatus{.source_id = host_.name(), .next_start = *tick});
-      }
-    }
+  [[nodiscard]] Instant clocks() const {
+    return {.run = place_.run_clock->at(*place_.now), .wall = place_.wall_clock->at(*place_.now)};
   }
 
   ProcessPlace place_;
   Host host_;
-  M machine_;
-  std::unique_ptr<machine::Pacing> pacing_;
-  std::vector<Event> mail_;
-  std::vector<Event> read_;
-  bool is_urgent_{};
-  bool has_presence_changed_{true};
-  std::size_t enough_{1};
-  WakeUp wake_;
+  machine::Loop<M> loop_;
   Nanoseconds wake_at_{};  ///< true time; 0: at once
   Nanoseconds read_mail_at_{};
   std::optional<int> exit_code_;

@@ -59,7 +59,7 @@ class VehicleHost : public Host {
   }
 
   void perform(const VehicleState& state) const { publish(kStates, state); }
-  void perform(const ReadyStatus& status) const { publish(kReady, status); }
+  void announce_tick(const ReadyStatus& status) const { publish(kReady, status); }
   void perform(const ParameterRequest& request) const { publish(kRequests, request); }
   void perform(const VehicleObservation& /*observation*/) const {}
   void perform(const result::DrivenSample& sample) const {

@@ -1,5 +1,7 @@
 #include "vehicle_sim/vehicle/vehicle_machine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -125,8 +127,8 @@ std::string VehicleMachine::parameter_fault() const {
   const RunParameters& parameters = start_up_.parameters();
   if (parameters.period() == 0) return std::string(kPeriodParameter) + " = 0, must be > 0";
   if (std::ranges::count(parameters.active_ids(), options_.vehicle.vehicle_id) == 0) {
-    return "--vehicle_id=" + std::to_string(options_.vehicle.vehicle_id) + " is not among the " +
-           kActiveIdsParameter + ": " + machine::joined(parameters.active_ids());
+    return fmt::format("--vehicle_id={} is not among the {}: {}", options_.vehicle.vehicle_id,
+                       kActiveIdsParameter, fmt::join(parameters.active_ids(), ", "));
   }
   return {};
 }
@@ -162,7 +164,7 @@ std::string VehicleMachine::who_is_missing() const {
       missing.push_back(middleware);
     }
   }
-  return machine::joined(missing);
+  return fmt::format("{}", fmt::join(missing, ", "));
 }
 
 // --- one tick -----------------------------------------------------------------------------------
@@ -180,9 +182,9 @@ bool VehicleMachine::awaits_answer(const PendingTick& tick, const Instant& now, 
       last_list_before(tick.time, start_up_.parameters().period());
   if (!list || is_answered(*list)) return false;
   if (now.wall < tick.patience_ends) return true;
-  actions.emplace_back(machine::warning(
-      "no answer to the list of " + std::to_string(*list) + " ns within " +
-      std::to_string(options_.rules.patience / kNanosecondsPerSecond) + " s; no longer waiting"));
+  actions.emplace_back(
+      machine::warning(fmt::format("no answer to the list of {} ns within {} s; no longer waiting",
+                                   *list, options_.rules.patience / kNanosecondsPerSecond)));
   wait_timed_out_ = true;
   return false;
 }
@@ -218,8 +220,8 @@ void VehicleMachine::make_up_for_missed_ticks(Nanoseconds t_now, Actions& action
 void VehicleMachine::log_why_it_stops(const SimulatedVehicle::Tick& done, Actions& actions) {
   if (last_status_ == tracking::FollowerStatus::kFollowing && done.status != last_status_ &&
       !is_stopping_) {
-    actions.emplace_back(machine::warning("stops at " + std::to_string(done.driven.t) +
-                                          " ns: " + reason(done.status)));
+    actions.emplace_back(
+        machine::warning(fmt::format("stops at {} ns: {}", done.driven.t, reason(done.status))));
   }
   last_status_ = done.status;
 }

@@ -1,8 +1,8 @@
 #include "planner/maneuver_design/solver/maneuver_solver.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
+
 #include <optional>
-#include <sstream>
 
 #include "planner/common/demand.hpp"
 #include "planner/maneuver_design/criteria.hpp"
@@ -56,10 +56,8 @@ std::string complaint(const ManeuverProblem& problem, const ManeuverSolution& so
     return "the solver's result violates a constraint";
   }
   if (solution.first_order_residual > kFirstOrderTolerance) {
-    std::ostringstream reason;
-    reason << "the solver stopped where the first-order residual is "
-           << solution.first_order_residual << ", must be <= " << kFirstOrderTolerance;
-    return reason.str();
+    return fmt::format("the solver stopped where the first-order residual is {:g}, must be <= {:g}",
+                       solution.first_order_residual, kFirstOrderTolerance);
   }
   return {};
 }
@@ -119,15 +117,16 @@ void explain_path_violation(const ManeuverProblem& problem, ManeuverSolution& so
       found.duration_s <= longest_s * (1.0 + kPathTolerance)) {
     return;
   }
-  std::ostringstream reason;
+  std::string reason;
   for (const auto& constraint : problem.path_constraints) {
-    reason << constraint->name() << " does not allow the change in " << longest_s << " s; ";
+    reason +=
+        fmt::format("{} does not allow the change in {:g} s; ", constraint->name(), longest_s);
   }
-  reason << "shortest feasible duration " << found.duration_s << " s";
+  reason += fmt::format("shortest feasible duration {:g} s", found.duration_s);
   const int evaluations = solution.evaluations + found.evaluations;
   solution = {};
   solution.status = ManeuverStatus::kInfeasible;
-  solution.reason = reason.str();
+  solution.reason = reason;
   solution.shortest_duration_s = found.duration_s;
   solution.evaluations = evaluations;
 }
@@ -155,12 +154,11 @@ std::optional<ManeuverSolution> broken_bound(const ManeuverProblem& problem,
   const ManeuverSolution least = attempt(problem, *bound.cost, {});
   const bool is_kept = least.cost <= bound.max + kPathTolerance * bound.scale();
   if (least.status != ManeuverStatus::kOptimal || is_kept) return std::nullopt;
-  std::ostringstream reason;
-  reason << "a cost that is bounded by " << bound.max << " is at least " << least.cost;
-  if (!problem.cost_bounds.empty()) reason << " under the bounds on other costs";
   ManeuverSolution none;
   none.status = ManeuverStatus::kInfeasible;
-  none.reason = reason.str();
+  none.reason =
+      fmt::format("a cost that is bounded by {:g} is at least {:g}{}", bound.max, least.cost,
+                  problem.cost_bounds.empty() ? "" : " under the bounds on other costs");
   none.evaluations = least.evaluations;
   return none;
 }

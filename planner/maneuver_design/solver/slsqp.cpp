@@ -1,5 +1,7 @@
 #include "planner/maneuver_design/solver/slsqp.hpp"
 
+#include <fmt/format.h>
+
 #include <nlopt.hpp>
 #include <stdexcept>
 #include <vector>
@@ -95,8 +97,7 @@ SlsqpResult run_slsqp(const Transcription& transcription, const ConstraintSet& c
     const nlopt::result code = slsqp.optimize(z, value);
     result.converged = code != nlopt::MAXEVAL_REACHED;
     if (!result.converged) {
-      result.reason =
-          "not converged after " + std::to_string(options.max_evaluations) + " evaluations";
+      result.reason = fmt::format("not converged after {} evaluations", options.max_evaluations);
     }
   } catch (const nlopt::roundoff_limited&) {
     // No further progress is possible in floating point: as good as converged. The residuals

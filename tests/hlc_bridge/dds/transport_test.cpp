@@ -85,7 +85,6 @@ TEST(DiscoveryFlags, IncompleteOrMalformedOnesAreRefusedByName) {
         refusal([&] { static_cast<void>(discovery_from_flags(mode, id, ip, port)); });
     return text.substr(0, text.find(':'));
   };
-  EXPECT_EQ(flag("server", kId, "127.0.0.1", "11811"), "--discovery_mode");
   EXPECT_EQ(flag("", kId, "127.0.0.1", "11811"), "--discovery_mode");
   EXPECT_EQ(flag("client", "", "127.0.0.1", "11811"), "--discovery_server_id");
   EXPECT_EQ(flag("client", "44.53", "127.0.0.1", "11811"), "--discovery_server_id");

@@ -52,7 +52,7 @@ struct Host {
   void perform(const Number& number) { numbers.push_back(number.value); }
   void perform(const Tick& tick) { ticks.push_back(tick.time); }
   void perform(const machine::LogLine& line) { lines.push_back(line.text); }
-  void perform(const ReadyStatus& status) {
+  void announce_tick(const ReadyStatus& status) {
     ready.push_back(status);
     if (on_ready) on_ready(status);
   }

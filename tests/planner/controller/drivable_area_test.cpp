@@ -75,7 +75,7 @@ TEST_F(DrivableAreaTest, OneThatStandsInItsLanesLooksForAWayOutOnceInEveryHorizo
 }
 
 TEST_F(DrivableAreaTest, WithoutATimeoutOneThatStandsInItsLanesStaysInThem) {
-  DrivableArea area(nullptr, kHorizon);
+  DrivableArea area(&no_timeout, kHorizon);
   for (std::size_t i = 0; i < 3 * kHorizon; ++i) stand(area, true);
   EXPECT_EQ(num_looks_, 0);
 }

@@ -12,9 +12,7 @@
 namespace hlc::controller::east_bound {
 
 /// Of the authors.
-inline const ControllerStrategies kAgreed{
-    .commit = coordination::kAgreedCommit,
-    .coupled_obstacles = &predictions_and_standing_successors};
+inline const ControllerStrategies kAgreed{.coordination = kAgreedCoordination};
 
 inline std::shared_ptr<const automaton::Subgraph> subgraph() {
   static const auto result = std::make_shared<const automaton::Subgraph>(

@@ -19,17 +19,17 @@ Traffic reaching(std::uint8_t vehicle, double x, double y) {
 }
 
 TEST(Priority, TheSmallerIdPlansEarlier) {
-  EXPECT_TRUE(plans_before({1}, {2}));
-  EXPECT_FALSE(plans_before({2}, {1}));
-  EXPECT_FALSE(plans_before({2}, {2}));
+  EXPECT_TRUE(smaller_id_first({1}, {2}));
+  EXPECT_FALSE(smaller_id_first({2}, {1}));
+  EXPECT_FALSE(smaller_id_first({2}, {2}));
 }
 
 TEST(Priority, PredecessorsAreTheCoupledVehiclesThatPlanEarlier) {
   const CouplingGraph graph = graph_of(
       {reaching(1, 0.0, 0.0), reaching(2, 0.5, 0.0), reaching(3, 1.0, 0.5), reaching(4, 9.0, 9.0)});
-  EXPECT_EQ(predecessors(graph, {1}), std::vector<VehicleId>{});
-  EXPECT_EQ(predecessors(graph, {2}), std::vector<VehicleId>{{1}});
-  EXPECT_EQ(predecessors(graph, {4}), std::vector<VehicleId>{});
+  EXPECT_EQ(predecessors(graph, {1}, smaller_id_first), std::vector<VehicleId>{});
+  EXPECT_EQ(predecessors(graph, {2}, smaller_id_first), std::vector<VehicleId>{{1}});
+  EXPECT_EQ(predecessors(graph, {4}, smaller_id_first), std::vector<VehicleId>{});
 }
 
 // The directed coupling has no cycle, so no two vehicles wait for each other.
@@ -45,10 +45,10 @@ TEST(Priority, EveryPredecessorIsOnALowerLevel) {
     }
     const CouplingGraph graph = graph_of(traffic);
     for (const VehicleId vehicle : graph.vehicles()) {
-      const std::uint32_t level = computation_level(graph, vehicle);
+      const std::uint32_t level = computation_level(graph, vehicle, smaller_id_first);
       std::uint32_t expected = 0;
-      for (const VehicleId other : predecessors(graph, vehicle)) {
-        expected = std::max(expected, computation_level(graph, other) + 1);
+      for (const VehicleId other : predecessors(graph, vehicle, smaller_id_first)) {
+        expected = std::max(expected, computation_level(graph, other, smaller_id_first) + 1);
       }
       EXPECT_EQ(level, expected);
     }

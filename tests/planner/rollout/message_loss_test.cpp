@@ -21,9 +21,7 @@ namespace {
 using test::plans_in_force_are_free;
 
 const controller::ControllerStrategies kStrict{};
-const controller::ControllerStrategies kAgreed{
-    .commit = coordination::kAgreedCommit,
-    .coupled_obstacles = &controller::predictions_and_standing_successors};
+const controller::ControllerStrategies kAgreed{.coordination = controller::kAgreedCoordination};
 
 std::shared_ptr<const automaton::Subgraph> paper_subgraph() {
   static const auto subgraph = std::make_shared<const automaton::Subgraph>(

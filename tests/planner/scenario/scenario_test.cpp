@@ -197,10 +197,10 @@ TEST(ScenarioSearch, TheProfileSaysByWhichRulesControllersPlanAndAgree) {
   };
   EXPECT_EQ(strategies("default"), controller::ControllerStrategies{});
   const controller::ControllerStrategies of_2022 = strategies("2022");
-  EXPECT_EQ(of_2022.commit, coordination::kAgreedCommit);
-  EXPECT_EQ(of_2022.coupled_obstacles, &controller::predictions_and_standing_successors);
+  EXPECT_EQ(of_2022.coordination, controller::kAgreedCoordination);
   EXPECT_EQ(of_2022.incumbent, &controller::no_incumbent) << "its counts are to be the paper's";
-  EXPECT_EQ(of_2022.standstill_timeout, nullptr) << "its drives are to be the paper's";
+  EXPECT_EQ(of_2022.standstill_timeout, &controller::no_timeout)
+      << "its drives are to be the paper's";
 }
 
 TEST(ScenarioSearch, AnEngineThatCannotSearchWithTheProfilesCostToGoIsRefused) {

@@ -44,6 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFlags{"--vehicle_id=1 --gains_scale=nan", "--gains_scale"},
         BadFlags{"--vehicle_id=1 --gains_scale=-1", "--gains_scale"},
         BadFlags{"--vehicle_id=1 --discovery_mode=client", "--discovery"},
+        BadFlags{"--vehicle_id=1 --discovery_mode=server", "--discovery_mode"},
         BadFlags{"--vehicle_id=1 --startup_timeout_s=0", "--startup_timeout_s"},
         BadFlags{"--vehicle_id=1 --record=/no/such/folder/x.csv", "/no/such/folder/x.csv"}));
 

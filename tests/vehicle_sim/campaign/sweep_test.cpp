@@ -97,7 +97,7 @@ TEST(Sweep, EverySettingReachesTheScenario) {
   EXPECT_EQ(scenario.steps, 30U);
   EXPECT_EQ(scenario.reference_speed_mps, 0.7);
   EXPECT_EQ(scenario.profile.reference_rule, road::half_speed_last);
-  EXPECT_EQ(scenario.profile.strategies.commit, coordination::kStrictCommit);
+  EXPECT_EQ(scenario.profile.strategies.coordination, controller::kStrictCoordination);
   EXPECT_EQ(scenario.profile.strategies.incumbent, &controller::no_incumbent);
   EXPECT_EQ(scenario.search.engine, search::Engine::kBestFirst);
   EXPECT_EQ(scenario.search.cost_to_go, search::CostToGo::kReferenceSpeed);
