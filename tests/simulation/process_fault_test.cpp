@@ -31,11 +31,9 @@ class FaultyRun {
 
   [[nodiscard]] bool drives_near_another(VehicleId victim) {
     records_.victim = victim;
-    // Not between a command and its copy: a death there leaves a car without the rest of the plan.
     return run.comes_to(
         [&] {
-          return run.now() % kStep_ns > kStep_ns / 2 &&
-                 test::drives_near_another(run.reports(), victim) &&
+          return run.is_between_commands() && test::drives_near_another(run.reports(), victim) &&
                  test::is_newest_sent_whole(run.commands(), victim.value);
         },
         kPatience);
