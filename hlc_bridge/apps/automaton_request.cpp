@@ -39,10 +39,10 @@ struct Flags {
   std::vector<std::string> criteria;
   std::vector<std::string> weights;
   std::optional<double> max_speed_mps;
-  std::vector<int> trims_on;
-  std::vector<int> trims_off;
-  std::vector<std::string> edges_on;
-  std::vector<std::string> edges_off;
+  std::vector<int> enable_trims;
+  std::vector<int> disable_trims;
+  std::vector<std::string> enable_edges;
+  std::vector<std::string> disable_edges;
   double in_s{0.0};
   std::uint64_t valid_from_ns{0};
   double timeout_s{10.0};
@@ -68,12 +68,13 @@ void declare(CLI::App& app, Flags& flags) {
                                 const std::string& what) {
     app.add_option(name, trims, what)->delimiter(',')->check(hlc::apps::whole(1, 100'000));
   };
-  add_trims("--trims_on", flags.trims_on, "trims beside the scenario's, numbered from 1");
-  add_trims("--trims_off", flags.trims_off, "trims of the scenario's that are not to be used");
-  app.add_option("--edges_on", flags.edges_on,
+  add_trims("--enable_trims", flags.enable_trims, "trims beside the scenario's, numbered from 1");
+  add_trims("--disable_trims", flags.disable_trims,
+            "trims of the scenario's that are not to be used");
+  app.add_option("--enable_edges", flags.enable_edges,
                  "edges that the scenario disables, from:to, e.g. 2:3,3:2")
       ->delimiter(',');
-  app.add_option("--edges_off", flags.edges_off, "edges that are not to be used, from:to")
+  app.add_option("--disable_edges", flags.disable_edges, "edges that are not to be used, from:to")
       ->delimiter(',');
   auto* const in_s = app.add_option("--in_s", flags.in_s, "real time: in force so much later")
                          ->capture_default_str()
@@ -149,10 +150,10 @@ hlc::SubgraphRequest subgraph_request(const Flags& flags) {
   return {.labels = flags.criteria,
           .weights = weights_of(flags.weights),
           .max_speed_mps = flags.max_speed_mps,
-          .trims_on = trims_of(flags.trims_on),
-          .trims_off = trims_of(flags.trims_off),
-          .edges_on = edges_of("--edges_on", flags.edges_on),
-          .edges_off = edges_of("--edges_off", flags.edges_off)};
+          .enable_trims = trims_of(flags.enable_trims),
+          .disable_trims = trims_of(flags.disable_trims),
+          .enable_edges = edges_of("--enable_edges", flags.enable_edges),
+          .disable_edges = edges_of("--disable_edges", flags.disable_edges)};
 }
 
 hlc::dds::ParticipantOptions participant_options(const Flags& flags) {

@@ -69,8 +69,9 @@ std::vector<CriterionWeight> weights_from_wire(const std::vector<CriterionWeight
 bool is_valid(const AutomatonRequestMessage& wire) {
   const auto is_short = [](const auto& entries) { return entries.size() <= kMaxEntries; };
   return dds::is_valid(VehicleId{wire.vehicle_id()}) && all_finite(wire.max_speed_mps()) &&
-         is_short(wire.labels()) && is_short(wire.weights()) && is_short(wire.trims_on()) &&
-         is_short(wire.trims_off()) && is_short(wire.edges_on()) && is_short(wire.edges_off()) &&
+         is_short(wire.labels()) && is_short(wire.weights()) && is_short(wire.enable_trims()) &&
+         is_short(wire.disable_trims()) && is_short(wire.enable_edges()) &&
+         is_short(wire.disable_edges()) &&
          std::ranges::all_of(wire.labels(),
                              [](const std::string& label) { return label.size() <= kMaxText; }) &&
          std::ranges::all_of(wire.weights(), [](const CriterionWeightMessage& one) {
@@ -85,7 +86,8 @@ bool can_be_written(const AutomatonAnswer& message) { return is_valid(message.ve
 
 void to_wire(const AutomatonRequest& message, AutomatonRequestMessage& wire) {
   const auto& [vehicle, id, valid_from, subgraph] = message;
-  const auto& [labels, weights, max_speed_mps, trims_on, trims_off, edges_on, edges_off] = subgraph;
+  const auto& [labels, weights, max_speed_mps, enable_trims, disable_trims, enable_edges,
+               disable_edges] = subgraph;
   wire.vehicle_id(vehicle.value);
   wire.id(id);
   wire.valid_from(valid_from);
@@ -93,10 +95,10 @@ void to_wire(const AutomatonRequest& message, AutomatonRequestMessage& wire) {
   wire.weights(weights_to_wire(weights));
   wire.limits_speed(max_speed_mps.has_value());
   wire.max_speed_mps(max_speed_mps.value_or(0.0));
-  wire.trims_on(trims_to_wire(trims_on));
-  wire.trims_off(trims_to_wire(trims_off));
-  wire.edges_on(edges_to_wire(edges_on));
-  wire.edges_off(edges_to_wire(edges_off));
+  wire.enable_trims(trims_to_wire(enable_trims));
+  wire.disable_trims(trims_to_wire(disable_trims));
+  wire.enable_edges(edges_to_wire(enable_edges));
+  wire.disable_edges(edges_to_wire(disable_edges));
 }
 
 Incoming<AutomatonRequest> from_wire(const AutomatonRequestMessage& wire) {
@@ -106,10 +108,10 @@ Incoming<AutomatonRequest> from_wire(const AutomatonRequestMessage& wire) {
   SubgraphRequest subgraph{.labels = wire.labels(),
                            .weights = weights_from_wire(wire.weights()),
                            .max_speed_mps = {},
-                           .trims_on = trims_from_wire(wire.trims_on()),
-                           .trims_off = trims_from_wire(wire.trims_off()),
-                           .edges_on = edges_from_wire(wire.edges_on()),
-                           .edges_off = edges_from_wire(wire.edges_off())};
+                           .enable_trims = trims_from_wire(wire.enable_trims()),
+                           .disable_trims = trims_from_wire(wire.disable_trims()),
+                           .enable_edges = edges_from_wire(wire.enable_edges()),
+                           .disable_edges = edges_from_wire(wire.disable_edges())};
   if (wire.limits_speed()) subgraph.max_speed_mps = wire.max_speed_mps();
   return {AutomatonRequest{.vehicle = {wire.vehicle_id()},
                            .id = wire.id(),

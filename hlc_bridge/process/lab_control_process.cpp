@@ -121,7 +121,7 @@ void LabControlProcess::perform(const RunState& state) {
 
 void LabControlProcess::perform(const machine::LogLine& line) {
   progress_.end_line();
-  log("", line);  // the logger bears the name
+  log("", line);  // the name is the logger's
 }
 
 void LabControlProcess::log_result() {

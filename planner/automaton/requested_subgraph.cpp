@@ -61,7 +61,7 @@ void change_labels(SubgraphSpec& spec, const UniversalAutomaton& automaton,
 void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (contains(spec.trims, trim))
-    refuse(fmt::format("trim {} on: must be disabled, is enabled", trim));
+    refuse(fmt::format("trim {}: must be disabled, is enabled", trim));
   spec.trims.insert(std::ranges::find_if(spec.trims, [trim](TrimId other) { return other > trim; }),
                     trim);
 }
@@ -69,7 +69,7 @@ void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim
 void disable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId trim) {
   check_trim(trim, automaton);
   if (!contains(spec.trims, trim))
-    refuse(fmt::format("trim {} off: must be enabled, is disabled", trim));
+    refuse(fmt::format("trim {}: must be enabled, is disabled", trim));
   std::erase(spec.trims, trim);
   const auto names_it = [trim](const auto& one) {
     return one.edge.from == trim || one.edge.to == trim;
@@ -80,15 +80,16 @@ void disable(SubgraphSpec& spec, const UniversalAutomaton& automaton, TrimId tri
 void enable(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
   check_trim(edge.from, automaton);
   check_trim(edge.to, automaton);
-  if (std::erase_if(spec.off, [&](const DisabledEdges& off) { return off.edge == edge; }) == 0) {
-    refuse(fmt::format("edge {} on: must be disabled in the scenario's subgraph", edge));
+  if (std::erase_if(spec.disabled_edges,
+                    [&](const DisabledEdges& disabled) { return disabled.edge == edge; }) == 0) {
+    refuse(fmt::format("edge {}: must be disabled in the scenario's subgraph", edge));
   }
 }
 
 void disable(SubgraphSpec& spec, const UniversalAutomaton& automaton, const TrimPair& edge) {
   check_trim(edge.from, automaton);
   check_trim(edge.to, automaton);
-  spec.off.push_back({edge, std::nullopt});
+  spec.disabled_edges.push_back({edge, std::nullopt});
 }
 
 void limit_speed(SubgraphSpec& spec, const UniversalAutomaton& automaton, double max_speed_mps) {
@@ -112,10 +113,10 @@ std::string name_of(const std::string& base, const SubgraphRequest& request) {
   }
   if (!request.weights.empty()) add("weights " + label_of(request.weights));
   if (request.max_speed_mps) add("at most " + shortest_text(*request.max_speed_mps) + " m/s");
-  if (!request.trims_on.empty()) add("with trims " + listed(request.trims_on));
-  if (!request.trims_off.empty()) add("without trims " + listed(request.trims_off));
-  if (!request.edges_on.empty()) add("with edges " + listed(request.edges_on));
-  if (!request.edges_off.empty()) add("without edges " + listed(request.edges_off));
+  if (!request.enable_trims.empty()) add("with trims " + listed(request.enable_trims));
+  if (!request.disable_trims.empty()) add("without trims " + listed(request.disable_trims));
+  if (!request.enable_edges.empty()) add("with edges " + listed(request.enable_edges));
+  if (!request.disable_edges.empty()) add("without edges " + listed(request.disable_edges));
   return name;
 }
 
@@ -135,10 +136,10 @@ SubgraphSpec requested_spec(const Subgraph& base, const SubgraphRequest& request
   SubgraphSpec spec = base.spec();
   spec.name = name_of(spec.name, request);
   change_labels(spec, automaton, request);
-  for (const TrimId trim : request.trims_on) enable(spec, automaton, trim);
-  for (const TrimId trim : request.trims_off) disable(spec, automaton, trim);
-  for (const TrimPair& edge : request.edges_on) enable(spec, automaton, edge);
-  for (const TrimPair& edge : request.edges_off) disable(spec, automaton, edge);
+  for (const TrimId trim : request.enable_trims) enable(spec, automaton, trim);
+  for (const TrimId trim : request.disable_trims) disable(spec, automaton, trim);
+  for (const TrimPair& edge : request.enable_edges) enable(spec, automaton, edge);
+  for (const TrimPair& edge : request.disable_edges) disable(spec, automaton, edge);
   if (request.max_speed_mps) limit_speed(spec, automaton, *request.max_speed_mps);
   return spec;
 }

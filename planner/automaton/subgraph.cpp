@@ -54,9 +54,10 @@ bool are_in_reach(const Trim& a, const Trim& b, const vehicle::VehicleParameters
 }
 
 bool is_disabled(const SubgraphSpec& spec, const TrimPair& edge, const std::string& label) {
-  return std::any_of(spec.off.begin(), spec.off.end(), [&](const DisabledEdges& off) {
-    return off.edge == edge && (!off.label || *off.label == label);
-  });
+  return std::any_of(
+      spec.disabled_edges.begin(), spec.disabled_edges.end(), [&](const DisabledEdges& disabled) {
+        return disabled.edge == edge && (!disabled.label || *disabled.label == label);
+      });
 }
 
 const std::vector<std::string>& declared_labels(const SubgraphSpec& spec, const TrimPair& edge) {
@@ -203,11 +204,11 @@ void Subgraph::check_spec() const {
     check_labels(one.labels);
     if (one.edge.from == one.edge.to) fail(fmt::format("labels for a self-loop, {}", one.edge));
   }
-  for (const DisabledEdges& off : spec_.off) {
-    check_trim(off.edge.from);
-    check_trim(off.edge.to);
-    if (off.edge.from == off.edge.to && stands(off.edge.from)) {
-      fail(fmt::format("edge {} is disabled, but standing must be possible", off.edge));
+  for (const DisabledEdges& disabled : spec_.disabled_edges) {
+    check_trim(disabled.edge.from);
+    check_trim(disabled.edge.to);
+    if (disabled.edge.from == disabled.edge.to && stands(disabled.edge.from)) {
+      fail(fmt::format("edge {} is disabled, but standing must be possible", disabled.edge));
     }
   }
 }

@@ -36,7 +36,7 @@ struct EdgeLabels {
 /// The enabled part of a universal automaton.
 ///
 /// The rule defines which pairs of the declared trims have edges; between two trims there is one
-/// edge for each label. `off` and `max_speed_mps` remove some of these.
+/// edge for each label. `disabled_edges` and `max_speed_mps` remove some of these.
 struct SubgraphSpec {
   std::string name;                 ///< "A" ... "D" of the paper
   std::vector<std::string> labels;  ///< of the maneuvers between different trims: {"J2"}
@@ -46,7 +46,7 @@ struct SubgraphSpec {
   /// between trims of 0.8 m/s reaches 2 m/s. One that ends in a trim at the limit exceeds it by the
   /// rounding of its last state: 1e-6 m/s are tolerated.
   std::optional<double> max_speed_mps{};
-  std::vector<DisabledEdges> off{};
+  std::vector<DisabledEdges> disabled_edges{};
   std::vector<EdgeLabels> edges{};
   friend bool operator==(const SubgraphSpec&, const SubgraphSpec&) = default;
 };
@@ -82,12 +82,12 @@ struct Edge {
 ///    just been disabled: it is the fallback. Its areas were checked when it was made.
 /// 2. Planning starts from a trim of the plan in force, which may be disabled now. Such a trim has
 ///    *exit edges*: let its exit distance be the fewest edges of the universal automaton, of any
-///    label but without those in `off`, that lead to an enabled trim. Its exit edges are those that
-///    lead one nearer; with the labels of the subgraph, or, if there are none, with any label.
-///    Under a speed limit those of any label that are not faster than both their trims come first:
-///    a vehicle that has to slow down does not speed up before. So a vehicle that is too fast for
-///    the subgraph is slowed down over as many steps as it needs, and disabled trims are left on
-///    the shortest way. The speed limit does not hold on that way: it cannot.
+///    label but without those in `disabled_edges`, that lead to an enabled trim. Its exit edges are
+///    those that lead one nearer; with the labels of the subgraph, or, if there are none, with any
+///    label. Under a speed limit those of any label that are not faster than both their trims come
+///    first: a vehicle that has to slow down does not speed up before. So a vehicle that is too
+///    fast for the subgraph is slowed down over as many steps as it needs, and disabled trims are
+///    left on the shortest way. The speed limit does not hold on that way: it cannot.
 /// 3. An equilibrium trim can be held forever, enabled or not: it keeps its self-loop. So standing
 ///    is always a plan.
 /// 4. A trim without any way out gives no new plan; the fallback is driven.

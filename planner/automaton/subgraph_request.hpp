@@ -20,10 +20,10 @@ struct SubgraphRequest {
   /// empty: `labels` decide.
   std::vector<CriterionWeight> weights{};
   std::optional<double> max_speed_mps{};  ///< instead of the scenario's; absent: unchanged
-  std::vector<TrimId> trims_on{};         ///< beside those of the scenario
-  std::vector<TrimId> trims_off{};
-  std::vector<TrimPair> edges_on{};  ///< of those that the scenario disables
-  std::vector<TrimPair> edges_off{};
+  std::vector<TrimId> enable_trims{};     ///< beside those of the scenario
+  std::vector<TrimId> disable_trims{};
+  std::vector<TrimPair> enable_edges{};  ///< of those that the scenario disables
+  std::vector<TrimPair> disable_edges{};
   friend bool operator==(const SubgraphRequest&, const SubgraphRequest&) = default;
 };
 

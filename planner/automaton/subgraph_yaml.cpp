@@ -87,36 +87,40 @@ void read_edge_labels(const Node& entry, const SubgraphContext& context, Subgrap
   }
 }
 
-/// Checks an entry of `off` between other trims. Edges out of enabled trims are those of the
-/// subgraph; any other edge of the automaton may lead out of a disabled trim (see Subgraph).
-void check_off(const Node& one, const DisabledEdges& off, const std::vector<TrimPair>& pairs,
-               const SubgraphContext& context, const SubgraphSpec& spec) {
+/// Checks an entry of `disabled_edges` between other trims. Edges out of enabled trims are those of
+/// the subgraph; any other edge of the automaton may lead out of a disabled trim (see Subgraph).
+void check_disabled(const Node& one, const DisabledEdges& disabled,
+                    const std::vector<TrimPair>& pairs, const SubgraphContext& context,
+                    const SubgraphSpec& spec) {
   const bool is_left_from =
-      !contains(spec.trims, off.edge.from) ||
-      (spec.max_speed_mps && context.trims[off.edge.from.index].speed_mps > *spec.max_speed_mps);
+      !contains(spec.trims, disabled.edge.from) ||
+      (spec.max_speed_mps &&
+       context.trims[disabled.edge.from.index].speed_mps > *spec.max_speed_mps);
   if (is_left_from) return;
-  if (!contains(pairs, off.edge)) one.fail("to", "a trim that the rule connects with `from`");
-  if (!off.label) return;
-  const auto listed = std::ranges::find(spec.edges, off.edge, &EdgeLabels::edge);
+  if (!contains(pairs, disabled.edge)) one.fail("to", "a trim that the rule connects with `from`");
+  if (!disabled.label) return;
+  const auto listed = std::ranges::find(spec.edges, disabled.edge, &EdgeLabels::edge);
   const auto& labels = listed == spec.edges.end() ? spec.labels : listed->labels;
   static_cast<void>(one.required<std::string>("label", one_of(labels)));
 }
 
 void read_off(const Node& entry, const SubgraphContext& context, SubgraphSpec& spec) {
   const std::vector<TrimPair> pairs = pairs_of(spec, context);
-  for (const Node& one : entry.optional_list("off")) {
-    DisabledEdges off{read_pair(one, context), std::nullopt};
-    if (one.has("label")) off.label = one.required<std::string>("label", one_of(context.labels));
+  for (const Node& one : entry.optional_list("disabled_edges")) {
+    DisabledEdges disabled{read_pair(one, context), std::nullopt};
+    if (one.has("label"))
+      disabled.label = one.required<std::string>("label", one_of(context.labels));
     one.check_no_unknown_keys();
-    if (off.edge.from == off.edge.to && context.trims[off.edge.from.index].is_equilibrium()) {
+    if (disabled.edge.from == disabled.edge.to &&
+        context.trims[disabled.edge.from.index].is_equilibrium()) {
       one.fail("to", "an edge other than standing, which must be possible");
     }
-    if (off.edge.from == off.edge.to && off.label) {
+    if (disabled.edge.from == disabled.edge.to && disabled.label) {
       one.fail("label", "absent for a self-loop, which is the same for all labels");
     }
-    if (off.edge.from != off.edge.to) check_off(one, off, pairs, context, spec);
-    if (contains(spec.off, off)) one.fail("unique");
-    spec.off.push_back(std::move(off));
+    if (disabled.edge.from != disabled.edge.to) check_disabled(one, disabled, pairs, context, spec);
+    if (contains(spec.disabled_edges, disabled)) one.fail("unique");
+    spec.disabled_edges.push_back(std::move(disabled));
   }
 }
 
@@ -223,10 +227,10 @@ std::string to_yaml(const SubgraphSpec& spec) {
                                  list_of(spec.labels, quoted_yaml), fmt::join(spec.trims, ", "));
   text += spec.rule == EdgeRule::kChain ? ", rule: chain" : ", rule: reachable";
   if (spec.max_speed_mps) text += ", max_speed_mps: " + shortest_text(*spec.max_speed_mps);
-  if (!spec.off.empty()) {
-    text += ", off: " + list_of(spec.off, [](const DisabledEdges& off) {
-              return fmt::format("{{{}{}}}", ends(off.edge),
-                                 off.label ? ", label: " + quoted_yaml(*off.label) : "");
+  if (!spec.disabled_edges.empty()) {
+    text += ", disabled_edges: " + list_of(spec.disabled_edges, [](const DisabledEdges& disabled) {
+              return fmt::format("{{{}{}}}", ends(disabled.edge),
+                                 disabled.label ? ", label: " + quoted_yaml(*disabled.label) : "");
             });
   }
   if (!spec.edges.empty()) {

@@ -26,15 +26,15 @@ struct SubgraphContext {
 ///     trims: all, or a list of numbers from 1
 ///     rule: chain (default) | reachable            (EdgeRule)
 ///     max_speed_mps          speed limit along maneuvers, optional
-///     off: list of {from, to, label (default: every label)}
-///                            an edge out of a trim that is on must be one that the rule gives,
+///     disabled_edges: list of {from, to, label (default: every label)}
+///                            an edge out of an enabled trim must be one that the rule gives,
 ///                            with a label that it has
 ///     edges: list of {from, to, labels: [...]}     labels of single edges, instead of the above
 ///
 /// @throws std::invalid_argument with one line, "file:line: key = value, must be ...": also if the
 /// trims do not hang together (each must be reached from the first trim of speed 0 and reach
-/// standstill within the horizon, over the edges that the rule gives and `off` leaves; what a speed
-/// limit takes away is known only once the maneuvers are, see Subgraph)
+/// standstill within the horizon, over the edges that the rule gives and `disabled_edges` leaves;
+/// what a speed limit takes away is known only once the maneuvers are, see Subgraph)
 [[nodiscard]] std::vector<SubgraphSpec> read_subgraphs(const Node& file,
                                                        const SubgraphContext& context);
 

@@ -3,7 +3,7 @@
 #include <compare>
 #include <cstdint>
 
-/// What vehicles and control steps are called, by everybody.
+/// Identifiers of vehicles and control steps, used by every room.
 namespace hlc {
 
 struct VehicleId {

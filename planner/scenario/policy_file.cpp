@@ -37,8 +37,8 @@ SubgraphRequest read_request(const Node& node) {
     node.fail("labels", "a list with at least one label");
   const double max_speed_mps = node.optional<double>("max_speed_mps", 0.0, above(0.0));
   if (node.has("max_speed_mps")) request.max_speed_mps = max_speed_mps;
-  request.trims_on = read_trims(node, "trims_on");
-  request.trims_off = read_trims(node, "trims_off");
+  request.enable_trims = read_trims(node, "enable_trims");
+  request.disable_trims = read_trims(node, "disable_trims");
   node.check_no_unknown_keys();
   return request;
 }

@@ -28,7 +28,7 @@ namespace hlc::scenario {
 ///
 ///     labels         list
 ///     max_speed_mps
-///     trims_on, trims_off   lists of numbers from 1
+///     enable_trims, disable_trims   lists of numbers from 1
 ///
 /// @throws std::invalid_argument with one line, "file:line: key = value, must be ..."
 [[nodiscard]] std::map<std::string, policy::ReconfigurationSettings> read_policies(

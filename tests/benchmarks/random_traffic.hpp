@@ -24,7 +24,7 @@ struct RandomTraffic {
 
 /// A car on one of the routes in random traffic, no boundary.
 ///
-/// It is in a trim that is on, up to 0.1 m beside the route and turned by up to 0.5 rad, one in
+/// It is in an enabled trim, up to 0.1 m beside the route and turned by up to 0.5 rad, one in
 /// ten the wrong way round; its reference are the points of profile `default`. Other cars drive
 /// random plans of the same subgraph, each from a random pose and trim; what they sweep are the
 /// obstacles. None sweeps the place where this car starts in the first step. With kKeepClear none
@@ -34,7 +34,7 @@ struct RandomTraffic {
 ///
 /// @param routes  closed
 /// @param seed  the same gives the same problem
-/// @pre every trim that is on can stand within `horizon_steps`
+/// @pre every enabled trim can stand within `horizon_steps`
 [[nodiscard]] search::HorizonProblem random_traffic_problem(
     const automaton::Subgraph& subgraph, std::span<const road::ReferencePath> routes,
     const RandomTraffic& traffic, std::uint64_t seed);

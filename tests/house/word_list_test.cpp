@@ -55,6 +55,7 @@ const std::vector<Words> kWords{
     {"whom", "the noun: which process, which vehicle"},
     {"thereby, in vain, for ever, anew, hardly ever", "by this, without effect, forever, again"},
     {"to the last bit", "bitwise identical"},
+    {"trim that is on, trim that is off, trim is on, trim is off", "enabled, disabled"},
     {"nobody solved", "new weights, computed on request"},
     {"numbers arose", "the rules that produced the numbers"},
     {"search may cost", "limits the search effort"},

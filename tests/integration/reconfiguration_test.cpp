@@ -129,7 +129,7 @@ TEST_F(Reconfiguration, WhatCannotBeIsRefusedAndTheCarDrivesOn) {
   EXPECT_EQ(refused.code, 1) << refused.output;
   EXPECT_THAT(refused.output, HasSubstr("vehicle 2: refused: speed limit 0.1 m/s, must be >= 0.4"));
   EXPECT_EQ(ask({"--vehicle=2", "--criterion=J9"}).code, 1);
-  EXPECT_EQ(ask({"--vehicle=2", "--edges_off=1-2"}).code, 2);
+  EXPECT_EQ(ask({"--vehicle=2", "--disable_edges=1-2"}).code, 2);
   EXPECT_EQ(ask({"--vehicle=2,2"}).code, 2);
   const Asked unanswered = ask({"--vehicle=7", "--timeout_s=1"});
   EXPECT_EQ(unanswered.code, 3);

@@ -68,7 +68,7 @@ TEST_F(Announced, AVehicleStandsWhenItsLastPlanHasRunOut) {
 
 TEST_F(Announced, WhatIsForgivenIsNotJudgedUntilTheNextAnnouncement) {
   publish(0, 0.0);
-  check_.forgive(kCar, 0);
+  check_.exempt(kCar, 0);
   drive(0.5, 0, 10 * kAnnouncedPeriod);
   EXPECT_TRUE(violations_.empty());
   publish(10, 0.0);

@@ -48,10 +48,10 @@ TEST(SimulatedClock, CanBeSetBackAndGoesOnFromThere) {
 
 TEST(EventQueue, OfOneTimeWhatWasPlannedFirstComesFirst) {
   EventQueue queue(100);
-  queue.add(300, {.what = Happening::kAlarm, .detail = 1});
-  queue.add(200, {.what = Happening::kAlarm, .detail = 2});
-  queue.add(300, {.what = Happening::kAlarm, .detail = 3});
-  queue.add(50, {.what = Happening::kAlarm, .detail = 4});  // over: now
+  queue.add(300, {.what = EventKind::kAlarm, .detail = 1});
+  queue.add(200, {.what = EventKind::kAlarm, .detail = 2});
+  queue.add(300, {.what = EventKind::kAlarm, .detail = 3});
+  queue.add(50, {.what = EventKind::kAlarm, .detail = 4});  // over: now
   EXPECT_EQ(queue.take().detail, 4U);
   EXPECT_EQ(queue.now(), 100U);
   EXPECT_EQ(queue.take().detail, 2U);

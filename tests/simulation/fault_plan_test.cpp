@@ -56,7 +56,7 @@ TEST(FaultPlan, EveryStyleKeepsToTheTimeAndTheKinds) {
   FaultPlanSettings settings = settings_of(kinds);
   settings.first = kNanosecondsPerSecond;
   for (const FaultStyle style : {FaultStyle::kScattered, FaultStyle::kBurst, FaultStyle::kLossy,
-                                 FaultStyle::kRestart, FaultStyle::kBorder, FaultStyle::kDeaf}) {
+                                 FaultStyle::kRestart, FaultStyle::kBorder, FaultStyle::kSilence}) {
     settings.style = style;
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       const std::vector<Fault> faults = draw_faults(seed, settings);

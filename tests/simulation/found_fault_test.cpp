@@ -20,7 +20,7 @@ scenario::Scenario circle(std::size_t cars) {
 scenario::Scenario paper(std::size_t cars, std::uint64_t starts) {
   const std::string file =
       test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml";
-  return scenario::with_random_starts(crowded(scenario::read_scenario({.file = file}), cars),
+  return scenario::with_random_starts(with_cars(scenario::read_scenario({.file = file}), cars),
                                       starts);
 }
 
@@ -84,7 +84,7 @@ TEST(FoundFault, Seed101734AVehicleThatChangesOverLateIsOutOfReach) {
   EXPECT_GT(result.unreachable, 0U);
 }
 
-/// A vehicle that stands beside its plan is anchored there and plans anew in the same step. The
+/// A vehicle that stands beside its plan is anchored there and plans again in the same step. The
 /// others keep clear of where it stands, not of where it was to stand.
 TEST(FoundFault, Seed101508AVehicleThatStandsBesideItsPlanIsWhereItsControllerSays) {
   run(circle(7), {.seed = 101508, .transport = Transport::kLab},

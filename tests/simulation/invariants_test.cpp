@@ -38,12 +38,12 @@ TEST_F(Footprints, AreComparedAtTheSameTickHoweverLateItIsTold) {
   check_.driven(1, 100, {.x_m = 0.0});
   check_.driven(1, 101, {.x_m = 0.9});
   check_.driven(1, 102, {.x_m = 0.0});
-  check_.judge(0, violations_);
+  check_.check(0, violations_);
   EXPECT_TRUE(violations_.empty());
   check_.driven(2, 100, {.x_m = 1.0});
   check_.driven(2, 101, {.x_m = 2.0});
   check_.driven(2, 102, {.x_m = 1.0});
-  check_.judge(0, violations_);
+  check_.check(0, violations_);
   EXPECT_TRUE(violations_.empty());
   EXPECT_NEAR(check_.smallest_distance_m(), 0.8, 1e-9);
 }
@@ -52,20 +52,20 @@ TEST_F(Footprints, ThatTouchAreToldOnce) {
   for (std::uint64_t tick = 5; tick < 8; ++tick) {
     check_.driven(1, tick, {.x_m = 0.85});
     check_.driven(2, tick, {.x_m = 1.0});
-    check_.judge(0, violations_);
+    check_.check(0, violations_);
   }
   EXPECT_EQ(violations_.size(), 1U);
 }
 
 TEST_F(Footprints, OfWhoHasNotBegunOrHasEndedStand) {
   check_.driven(1, 5, {.x_m = 0.5});
-  check_.judge(0, violations_);
+  check_.check(0, violations_);
   EXPECT_TRUE(violations_.empty());
   EXPECT_NEAR(check_.smallest_distance_m(), 0.3, 1e-9);
   check_.driven(2, 6, {.x_m = 1.0});
   check_.ended(2);
   check_.driven(1, 7, {.x_m = 0.9});
-  check_.judge(0, violations_);
+  check_.check(0, violations_);
   EXPECT_EQ(violations_.size(), 1U);
 }
 
@@ -74,7 +74,7 @@ TEST_F(Footprints, OfAVehicleThatIsOutOfReachOrHasJustDiedMayTouch) {
   check_.driven(1, 5, {.x_m = 0.0});
   check_.driven(1, 6, {.x_m = 0.9}, true);
   check_.driven(2, 6, {.x_m = 1.0});
-  check_.judge(0, violations_);
+  check_.check(0, violations_);
   EXPECT_TRUE(violations_.empty());
   EXPECT_NEAR(check_.smallest_distance_m(), 0.8, 1e-9);
 }
@@ -85,7 +85,7 @@ TEST_F(Footprints, OfADeadVehicleCountAfterAWhile) {
   check_.died(2, 3);
   check_.driven(1, 9, {.x_m = 0.0});
   check_.driven(1, 10, {.x_m = 0.9});
-  check_.judge(0, violations_);
+  check_.check(0, violations_);
   EXPECT_EQ(violations_.size(), 1U);
 }
 
@@ -161,11 +161,11 @@ TEST(Reasons, AVehicleThatStopsSaysSoInTheSameTurn) {
   check.driven("a", true, 10);
   check.driven("a", false, 20);
   check.log("a", machine::warning("stops"), 20);
-  check.judge(100, violations);
+  check.check(100, violations);
   EXPECT_TRUE(violations.empty());
   check.driven("a", true, 110);
   check.driven("a", false, 120);
-  check.judge(200, violations);
+  check.check(200, violations);
   EXPECT_EQ(violations.size(), 1U);
 }
 
@@ -176,12 +176,12 @@ TEST(Planning, WhoIsAbleHasPlannedOrFoundThatThereIsNoWay) {
   check.report({.report = report_of(kTwo, 1, coordination::StepStatus::kFallback,
                                     coordination::FallbackReason::kInfeasible)},
                150);
-  check.judge({2}, 200, violations);
+  check.check({2}, 200, violations);
   EXPECT_TRUE(violations.empty());
-  check.judge({1, 2}, 200, violations);
+  check.check({1, 2}, 200, violations);
   ASSERT_EQ(violations.size(), 1U);
   check.report({.report = report_of(kOne, 2, coordination::StepStatus::kPlanned)}, 150);
-  check.judge({1, 2}, 200, violations);
+  check.check({1, 2}, 200, violations);
   EXPECT_EQ(violations.size(), 1U);
 }
 

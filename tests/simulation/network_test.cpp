@@ -32,12 +32,12 @@ class Network : public testing::Test {
   }
   /// Lets time pass; what arrives is kept by topic of the reader.
   void pass(Nanoseconds time) {
-    queue_.add(queue_.now() + time, {.what = Happening::kAlarm});
+    queue_.add(queue_.now() + time, {.what = EventKind::kAlarm});
     while (true) {
       Event event = queue_.take();
-      if (event.what == Happening::kAlarm) return;
-      if (event.what == Happening::kSight) {
-        static_cast<void>(network_.look(event));
+      if (event.what == EventKind::kAlarm) return;
+      if (event.what == EventKind::kDiscovery) {
+        static_cast<void>(network_.discover(event));
       } else if (const auto arrival = network_.arrive(std::move(event))) {
         arrived_.push_back(arrival->topic);
         if (const auto* trigger = std::get_if<SystemTrigger>(arrival->message.get())) {
@@ -88,7 +88,7 @@ TEST_F(Network, WhoIsKilledIsMissedWhenItsLeaseHasRunOutAndWhoLeavesAtOnce) {
   const NodeId leaving = join_writer("leaving");
   const NodeId reader = join_reader();
   pass(kNanosecondsPerSecond);
-  network_.vanish(killed);
+  network_.crash(killed);
   network_.leave(leaving);
   pass(10 * kMilli);
   EXPECT_TRUE(sees(reader, "killed"));
@@ -102,7 +102,7 @@ TEST_F(Network, ANameIsThereAsLongAsOneOfThoseThatBearItIs) {
   const NodeId first = join_writer("name");
   const NodeId reader = join_reader();
   pass(kNanosecondsPerSecond);
-  network_.vanish(first);
+  network_.crash(first);
   join_writer("name");
   pass(kNanosecondsPerSecond / 2);
   EXPECT_TRUE(sees(reader, "name"));
@@ -194,7 +194,7 @@ TEST_F(Network, WhoStandsStillShowsNoSignOfLifeAndMissesSomeWhenItGoesOn) {
   network_.freeze(writer);
   pass(3 * kNanosecondsPerSecond);
   EXPECT_FALSE(sees(reader, "writer"));
-  network_.thaw(writer);
+  network_.resume(writer);
   pass(kNanosecondsPerSecond);
   EXPECT_TRUE(sees(reader, "writer"));
   EXPECT_TRUE(sees(writer, "reader"));

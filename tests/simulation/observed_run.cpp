@@ -22,13 +22,13 @@ const scenario::Scenario& scenario_of(const std::string& name) {
 }
 
 ObservedRun::ObservedRun(const scenario::Scenario& scenario, const LabSettings& settings)
-    : scenario_(&scenario), judges_(scenario, 0, no_trace_), lab_(scenario, settings, *this) {
-  judges_.attach(lab_);
-  lab_.on_change = [this](const Seat& seat) {
-    judges_.changed(seat);
-    if (seat.exit_code) exit_codes_[seat.name] = *seat.exit_code;
+    : scenario_(&scenario), monitor_(scenario, 0, no_trace_), lab_(scenario, settings, *this) {
+  monitor_.attach(lab_);
+  lab_.on_change = [this](const ProcessSlot& slot) {
+    monitor_.changed(slot);
+    if (slot.exit_code) exit_codes_[slot.name] = *slot.exit_code;
   };
-  lab_.pose_of = [this](std::uint8_t vehicle) { return judges_.pose_of(vehicle); };
+  lab_.pose_of = [this](std::uint8_t vehicle) { return monitor_.pose_of(vehicle); };
   lab_.set_alarm(kLook, 0);
 }
 
@@ -37,16 +37,16 @@ bool ObservedRun::comes_to(const std::function<bool()>& condition, Nanoseconds p
   while (!condition()) {
     if (lab_.now() >= end) return false;
     if (!lab_.step()) continue;
-    judges_.judge_ticks();
+    monitor_.check_ticks();
     lab_.set_alarm(lab_.now() + kLook, 0);
   }
   return true;
 }
 
 void ObservedRun::kill(const std::string& process) {
-  Seat& seat = lab_.seat(process);
-  lab_.kill(seat);
-  judges_.killed(seat);
+  ProcessSlot& slot = lab_.slot(process);
+  lab_.kill(slot);
+  monitor_.killed(slot);
 }
 
 bool ObservedRun::has_logged(const std::string& process, const std::string& text) const {
@@ -58,37 +58,37 @@ bool ObservedRun::has_logged(const std::string& process, const std::string& text
 
 std::string ObservedRun::violations() {
   std::string text;
-  for (const Violation& violation : judges_.result().violations) {
+  for (const Violation& violation : monitor_.result().violations) {
     text += violation.check + ": " + violation.text + "\n";
   }
   return text;
 }
 
 void ObservedRun::on_log(NodeId node, const machine::LogLine& line) {
-  judges_.on_log(node, line);
+  monitor_.on_log(node, line);
   log_[lab_.name(node)].push_back({.tick = tick_, .line = line});
 }
 
 void ObservedRun::on_driven(std::uint8_t vehicle, Nanoseconds time,
                             const result::DrivenSample& sample) {
-  judges_.on_driven(vehicle, time, sample);
+  monitor_.on_driven(vehicle, time, sample);
   drives_[vehicle].push_back(sample);
   on_tick(vehicle, sample.t);
   tick_ = std::max(tick_, sample.t);
 }
 
 void ObservedRun::on_report(const ReportRecord& record, const coordination::Plan* in_force) {
-  judges_.on_report(record, in_force);
+  monitor_.on_report(record, in_force);
   reports_.push_back(record);
 }
 
 void ObservedRun::on_received(const TrajectoryCommand& command) {
-  judges_.on_received(command);
+  monitor_.on_received(command);
   commands_.insert_or_assign({command.vehicle_id, command.create_stamp}, command);
 }
 
 void ObservedRun::on_stop_symbol(std::uint8_t vehicle) {
-  judges_.on_stop_symbol(vehicle);
+  monitor_.on_stop_symbol(vehicle);
   if (!stopped_at_) stopped_at_ = tick_;
 }
 

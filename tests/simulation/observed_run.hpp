@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "tests/integration/recorded_commands.hpp"
-#include "vehicle_sim/closed_loop/run_judges.hpp"
+#include "vehicle_sim/closed_loop/run_monitor.hpp"
 
 namespace hlc::closed_loop {
 
@@ -29,14 +29,14 @@ class ObservedRun final : private RunObserver {
   }
 
   void kill(const std::string& process);
-  void restart(const std::string& process) { lab_.restart(lab_.seat(process)); }
-  void freeze(const std::string& process) { lab_.freeze(lab_.seat(process)); }
-  void thaw(const std::string& process) { lab_.thaw(lab_.seat(process)); }
+  void restart(const std::string& process) { lab_.restart(lab_.slot(process)); }
+  void freeze(const std::string& process) { lab_.freeze(lab_.slot(process)); }
+  void resume(const std::string& process) { lab_.resume(lab_.slot(process)); }
   /// It hangs while its participants stay: from now on nobody receives anything of it.
   void silence(const std::string& process) {
     lab_.network().add(Disturbance{.from = process, .withheld = 1.0});
   }
-  void interrupt(const std::string& process) { lab_.interrupt(lab_.seat(process)); }
+  void interrupt(const std::string& process) { lab_.interrupt(lab_.slot(process)); }
 
   /// What an exact clock shows: vehicles and controllers count by it in real time.
   [[nodiscard]] Nanoseconds now() const { return lab_.true_time(); }
@@ -59,8 +59,8 @@ class ObservedRun final : private RunObserver {
   [[nodiscard]] const std::map<std::string, int>& exit_codes() const { return exit_codes_; }
   /// All processes have ended by themselves, except perhaps for that one.
   [[nodiscard]] bool have_all_ended(const std::string& except = "") {
-    return std::ranges::all_of(lab_.seats(), [&](const Seat& seat) {
-      return seat.name == except || exit_codes_.contains(seat.name);
+    return std::ranges::all_of(lab_.slots(), [&](const ProcessSlot& slot) {
+      return slot.name == except || exit_codes_.contains(slot.name);
     });
   }
   struct Line {
@@ -76,7 +76,7 @@ class ObservedRun final : private RunObserver {
   /// Newest tick when the stop symbol reached the first vehicle.
   [[nodiscard]] std::optional<Nanoseconds> stopped_at() const { return stopped_at_; }
 
-  /// Of the invariants that hold in every run (RunJudges), each in a line; "" if there are none.
+  /// Of the invariants that hold in every run (RunMonitor), each in a line; "" if there are none.
   [[nodiscard]] std::string violations();
 
   /// Called with every sample that is driven.
@@ -86,18 +86,18 @@ class ObservedRun final : private RunObserver {
   void on_log(NodeId node, const machine::LogLine& line) override;
   void on_driven(std::uint8_t vehicle, Nanoseconds time,
                  const result::DrivenSample& sample) override;
-  void on_traffic(const coordination::Traffic& traffic) override { judges_.on_traffic(traffic); }
+  void on_traffic(const coordination::Traffic& traffic) override { monitor_.on_traffic(traffic); }
   void on_prediction(const coordination::Prediction& prediction) override {
-    judges_.on_prediction(prediction);
+    monitor_.on_prediction(prediction);
   }
   void on_report(const ReportRecord& record, const coordination::Plan* in_force) override;
-  void on_command(const TrajectoryCommand& command) override { judges_.on_command(command); }
+  void on_command(const TrajectoryCommand& command) override { monitor_.on_command(command); }
   void on_received(const TrajectoryCommand& command) override;
   void on_stop_symbol(std::uint8_t vehicle) override;
 
   const scenario::Scenario* scenario_;
   Trace no_trace_;
-  RunJudges judges_;
+  RunMonitor monitor_;
   SimulatedLab lab_;
   result::Drives drives_;
   test::Commands commands_;

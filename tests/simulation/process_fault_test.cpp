@@ -89,7 +89,7 @@ TEST_P(LastingFault, LeavesItsCarOnItsLastPlanAndStandingAndTheOthersKeepClear) 
       test::expect_victim_drives_only_its_last_plan(records, test::kForever);
       test::expect_victim_stands(records);
       test::expect_others_keep_clear(records, one.run.scenario(), test::kForever);
-      if (!fault.is_killed) one.run.thaw(fault.process);  // it finds the run over, or goes on
+      if (!fault.is_killed) one.run.resume(fault.process);  // it finds the run over, or goes on
       one.end(fault.is_killed ? fault.process : "");
       EXPECT_EQ(one.run.exit_codes().at(kLabControlName), kExitInterrupted);
     }
@@ -115,7 +115,7 @@ TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
     one.run.pass(2 * test::kReactionTime);
     const auto last = test::last_report(one.run.reports(), {1});
     ASSERT_TRUE(last && test::is_among(kVictim, last->missing));
-    one.run.thaw(controller_name(2));
+    one.run.resume(controller_name(2));
     const Nanoseconds goes_on = one.run.now();
     EXPECT_TRUE(one.run.comes_to(
         [&] {
@@ -143,7 +143,7 @@ TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn)
                  one.run.now() > one.fault() + test::kStandingTime;
         },
         kPatience));
-    one.run.thaw(controller_name(2));
+    one.run.resume(controller_name(2));
     const Nanoseconds goes_on = one.run.now();
     one.run.pass(3 * kSecond);
     const test::FaultRecords records = one.records();

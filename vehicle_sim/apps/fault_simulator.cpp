@@ -162,7 +162,7 @@ std::string flags_of(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Runs in memory with faults that a seed draws, judged in every tick.",
+  CLI::App app("Runs in memory with faults that a seed draws, checked in every tick.",
                "fault_simulator");
   app.footer("Exit codes: 0 nothing is violated, 1 something is, 2 bad flags or files.");
   Choices choices;

@@ -38,8 +38,8 @@ class AnnouncedCheck {
   /// @param tick  its time
   void driven(VehicleId vehicle, Nanoseconds tick, const Pose& pose, double speed_mps,
               Violations& violations);
-  /// It is not judged until something new is announced of it. @param tick  now
-  void forgive(VehicleId vehicle, Nanoseconds tick) {
+  /// It is not checked until something new is announced of it. @param tick  now
+  void exempt(VehicleId vehicle, Nanoseconds tick) {
     Car& car = cars_[vehicle];
     car.running.reset();
     car.agreed.reset();

@@ -76,14 +76,14 @@ void DrivenPlans::reported(const coordination::Report& report, const coordinatio
       report.status == coordination::StepStatus::kStandby) {
     car.is_mistaken = false;
   }
-  note_sight(car, report);
+  note_observation(car, report);
   for (Sent& sent : car.sent) {
     if (!sent.plan) sent.plan = car.agreed;
   }
 }
 
 /// What the controller sees after the vehicle has changed over late.
-void DrivenPlans::note_sight(Car& car, const coordination::Report& report) const {
+void DrivenPlans::note_observation(Car& car, const coordination::Report& report) const {
   const Nanoseconds at = report.step.value * period_;
   if (at <= car.late_change.at) return;
   if (report.reason == coordination::FallbackReason::kDeviation && car.late_change.at != 0 &&
@@ -151,12 +151,12 @@ bool DrivenPlans::has_all_that_was_sent(const Car& car) {
          newest.usable_until <= car.received.usable_until() && !was_stopped_before_copy;
 }
 
-void DrivenPlans::judge_drop(VehicleId vehicle, Car& car, Nanoseconds tick,
+void DrivenPlans::check_drop(VehicleId vehicle, Car& car, Nanoseconds tick,
                              Violations& violations) {
   if (!has_dropped_plan(car, tick)) return;
   if (!has_all_that_was_sent(car)) {
     car.out_of_reach_until = tick + kAfterwards;
-  } else if (!is_out_of_reach(vehicle, tick) && disobeyed_.insert(vehicle).second) {
+  } else if (!is_out_of_reach(vehicle, tick) && off_command_.insert(vehicle).second) {
     violations.push_back({.at = tick,
                           .check = "commands",
                           .text = "vehicle " + std::to_string(vehicle.value) +
@@ -169,7 +169,7 @@ bool DrivenPlans::is_out_of_reach(VehicleId vehicle, Nanoseconds at) const {
   return car != cars_.end() && at < car->second.out_of_reach_until;
 }
 
-bool DrivenPlans::is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick) const {
+bool DrivenPlans::is_checked(VehicleId vehicle, const Car& car, Nanoseconds tick) const {
   return car.follows != 0 && car.driven && car.driven->areas && !car.is_mistaken &&
          !is_out_of_reach(vehicle, tick);
 }
@@ -186,15 +186,15 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   if (car.late_change.is_unseen_since && tick < car.late_change.at + kAfterwards) {
     car.out_of_reach_until = std::max(car.out_of_reach_until, tick + kVehiclePeriod);
   }
-  judge_drop(vehicle, car, tick, violations);
-  judge_order(vehicle, car, tick, violations);
+  check_drop(vehicle, car, tick, violations);
+  check_order(vehicle, car, tick, violations);
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
   if (!plan || plan == car.driven) return;
   if (is_change_late(car, plan, tick)) car.late_change = {.at = tick, .is_unseen_since = true};
   car.driven = plan;
   car.stands.reset();
-  judge_pairs(vehicle, tick, violations);
+  check_pairs(vehicle, tick, violations);
 }
 
 /// The plan was commanded before it began; the vehicle, which drove another one, has not received
@@ -205,23 +205,23 @@ bool DrivenPlans::is_change_late(const Car& car, const AgreedPlan& plan, Nanosec
       car.sent, [&](const Sent& sent) { return sent.plan == plan && sent.at < plan->begin; });
 }
 
-void DrivenPlans::judge_order(VehicleId vehicle, Car& car, Nanoseconds tick,
+void DrivenPlans::check_order(VehicleId vehicle, Car& car, Nanoseconds tick,
                               Violations& violations) {
   if (car.follows == 0) return;
-  if (car.follows >= car.received.newest() || !disobeyed_.insert(vehicle).second) return;
+  if (car.follows >= car.received.newest() || !off_command_.insert(vehicle).second) return;
   violations.push_back({.at = tick,
                         .check = "commands",
                         .text = "vehicle " + std::to_string(vehicle.value) +
                                 " follows an older command than it has received"});
 }
 
-void DrivenPlans::judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations) {
+void DrivenPlans::check_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations) {
   const Car& car = cars_.at(vehicle);
-  if (!is_judged(vehicle, car, tick) || car.driven->is_anchored) return;
+  if (!is_checked(vehicle, car, tick) || car.driven->is_anchored) return;
   const coordination::OccupiedAreas& areas = *car.driven->areas;
   const StepIndex now{tick / period_};
   for (const auto& [other, its] : cars_) {
-    if (other == vehicle || !is_judged(other, its, tick)) continue;
+    if (other == vehicle || !is_checked(other, its, tick)) continue;
     const coordination::OccupiedAreas& its_areas = its.stands ? *its.stands : *its.driven->areas;
     const StepIndex from = std::max({now, areas.first, its_areas.first});
     if (coordination::are_free(areas, its_areas, from, horizon_steps_) ||

@@ -18,11 +18,11 @@
 
 namespace hlc::closed_loop {
 
-/// Which plan each vehicle truly drives: the one whose command it follows. What is judged:
+/// Which plan each vehicle truly drives: the one whose command it follows. What is checked:
 ///
 /// * **driven**: whenever a vehicle changes over to another agreed plan, it is free of what the
-///   others drive from then on, until both stand. A plan that is anchored anew where a vehicle
-///   stands has been agreed by nobody: of that the footprints are judged. Once the plan of a
+///   others drive from then on, until both stand. A plan that is re-anchored where a vehicle
+///   stands has been agreed by nobody: of that the footprints are checked. Once the plan of a
 ///   vehicle has run out, the vehicle stands where its controller announces.
 /// * **commands**: a vehicle follows the newest command that it has received and that is valid; and
 ///   its controller has sent it all that it needs to drive the plan to its end.
@@ -118,19 +118,19 @@ class DrivenPlans {
                                             const coordination::Plan& in_force);
   [[nodiscard]] static bool is_change_late(const Car& car, const AgreedPlan& plan,
                                            Nanoseconds tick);
-  void note_sight(Car& car, const coordination::Report& report) const;
+  void note_observation(Car& car, const coordination::Report& report) const;
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] static bool has_all_that_was_sent(const Car& car);
-  void judge_drop(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
-  [[nodiscard]] bool is_judged(VehicleId vehicle, const Car& car, Nanoseconds tick) const;
-  void judge_order(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
-  void judge_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations);
+  void check_drop(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
+  [[nodiscard]] bool is_checked(VehicleId vehicle, const Car& car, Nanoseconds tick) const;
+  void check_order(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
+  void check_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations);
 
   std::size_t horizon_steps_;
   Nanoseconds period_;
   std::map<VehicleId, Car> cars_;
   std::set<std::pair<VehicleId, VehicleId>> met_;
-  std::set<VehicleId> disobeyed_;
+  std::set<VehicleId> off_command_;
 };
 
 }  // namespace hlc::closed_loop

@@ -15,16 +15,16 @@ namespace hlc::closed_loop {
 /// A start of a process: a restarted process is another node.
 using NodeId = std::uint32_t;
 
-enum class Happening : std::uint8_t {
-  kArrival,  ///< of `message` on channel `detail`
-  kSight,    ///< `node` may see or miss `other` on domain `detail`
-  kWakeUp,   ///< of the process `node`, unless it has other plans by then (`generation`)
-  kStart,    ///< of the process number `detail`
-  kAlarm,    ///< number `detail` of the caller
+enum class EventKind : std::uint8_t {
+  kArrival,    ///< of `message` on channel `detail`
+  kDiscovery,  ///< `node` discovers or loses `other` on domain `detail`
+  kWakeUp,     ///< of the process `node`, unless it has been rescheduled (`generation`)
+  kStart,      ///< of the process number `detail`
+  kAlarm,      ///< number `detail` of the caller
 };
 
 struct Event {
-  Happening what{};
+  EventKind what{};
   NodeId node{};
   NodeId other{};
   std::uint32_t detail{};

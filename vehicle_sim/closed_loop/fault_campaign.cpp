@@ -24,13 +24,13 @@ constexpr Nanoseconds kLastLogicalFault = 6 * kNanosecondsPerSecond;
 
 FaultStyle any_style(SeededRandom& random) {
   constexpr std::array kStyles{FaultStyle::kScattered, FaultStyle::kBurst,  FaultStyle::kLossy,
-                               FaultStyle::kRestart,   FaultStyle::kBorder, FaultStyle::kDeaf};
+                               FaultStyle::kRestart,   FaultStyle::kBorder, FaultStyle::kSilence};
   return kStyles[random.below(kStyles.size())];
 }
 
 }  // namespace
 
-scenario::Scenario crowded(scenario::Scenario scenario, std::size_t cars) {
+scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars) {
   const std::size_t routes = scenario.vehicles.size();
   for (std::size_t i = routes; i < cars; ++i) {
     scenario::ScenarioVehicle vehicle = scenario.vehicles[i % routes];
@@ -52,7 +52,7 @@ FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::mo
     controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(on_circle);
     scenarios_.emplace(
         cars, Scenarios{.circle = {std::move(on_circle), std::move(prepared)},
-                        .paper = {.scenario = crowded(paper, cars), .subgraph = on_paper}});
+                        .paper = {.scenario = with_cars(paper, cars), .subgraph = on_paper}});
   }
 }
 

@@ -38,7 +38,7 @@ struct Shrunk {
 
 /// The scenario with so many cars, the further ones on the same routes; for random starts.
 /// @pre vehicles are numbered from 1
-[[nodiscard]] scenario::Scenario crowded(scenario::Scenario scenario, std::size_t cars);
+[[nodiscard]] scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars);
 
 /// Runs with faults, one for each seed. A seed chooses
 ///   * the scenario: cars on a circle that all drive to the other side, or cars on the paper's

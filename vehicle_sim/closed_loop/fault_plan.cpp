@@ -50,8 +50,8 @@ class Draw {
         for (std::size_t i = 2 + random_.below(4); i > 0; --i) add_at_border(faults);
         scatter(random_.below(2), faults);
         break;
-      case FaultStyle::kDeaf:
-        for (std::size_t i = 1 + random_.below(4); i > 0; --i) add_deafness(faults);
+      case FaultStyle::kSilence:
+        for (std::size_t i = 1 + random_.below(4); i > 0; --i) add_lost_controllers(faults);
         scatter(random_.below(2), faults);
         break;
     }
@@ -125,7 +125,7 @@ class Draw {
   }
 
   /// Of two controllers: of both, with losses all the time, or of one, for long.
-  void add_deafness(std::vector<Fault>& faults) {
+  void add_lost_controllers(std::vector<Fault>& faults) {
     const auto any_controller = [this] {
       return controller_name(settings_.vehicle_ids[random_.below(settings_.vehicle_ids.size())]);
     };

@@ -49,7 +49,7 @@ enum class FaultStyle : std::uint8_t {
   kLossy,      ///< links that lose 10 ... 30 % all the time, and some scattered faults
   kRestart,    ///< processes that are killed and come back soon, while messages to them are lost
   kBorder,     ///< messages that are stale, come twice or overtake others by about a step or two
-  kDeaf,       ///< controllers that lose much of what others of them send, or one of another all
+  kSilence,    ///< controllers that lose much of what others of them send, or one of another all
 };
 
 struct FaultPlanSettings {

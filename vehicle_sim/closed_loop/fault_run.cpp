@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "vehicle_sim/closed_loop/run_judges.hpp"
+#include "vehicle_sim/closed_loop/run_monitor.hpp"
 #include "vehicle_sim/closed_loop/simulated_lab.hpp"
 
 namespace hlc::closed_loop {
@@ -17,8 +17,8 @@ constexpr Nanoseconds kLeaveTime = 10 * kNanosecondsPerSecond;
 /// process without triggers times out after a minute.
 constexpr Nanoseconds kLogicalPatience = 180 * kNanosecondsPerSecond;
 constexpr Nanoseconds kCheckPeriod = 100 * kNanosecondsPerMillisecond;
-/// A process with more turns in a check period waits for a past event.
-constexpr std::uint64_t kMostTurns = 2'000;
+/// A process with more iterations in a check period waits for a past event.
+constexpr std::uint64_t kMostIterations = 2'000;
 
 Disturbance disturbance_of(const Fault& fault) {
   const auto amount = static_cast<Nanoseconds>(std::max<std::int64_t>(fault.amount, 0));
@@ -50,13 +50,13 @@ void begin(const Fault& fault, SimulatedLab& lab) {
     case FaultKind::kCut:
       return lab.network().add(Cut{.from = fault.process, .to = fault.peer});
     case FaultKind::kKill:
-      return lab.kill(lab.seat(fault.process));
+      return lab.kill(lab.slot(fault.process));
     case FaultKind::kFreeze:
-      return lab.freeze(lab.seat(fault.process));
+      return lab.freeze(lab.slot(fault.process));
     case FaultKind::kStep:
-      return lab.set_clocks(lab.seat(fault.process), fault.amount, 0);
+      return lab.set_clocks(lab.slot(fault.process), fault.amount, 0);
     case FaultKind::kDrift:
-      return lab.set_clocks(lab.seat(fault.process), 0, fault.amount);
+      return lab.set_clocks(lab.slot(fault.process), 0, fault.amount);
     default:
       return lab.network().add(disturbance_of(fault));
   }
@@ -67,13 +67,13 @@ void finish(const Fault& fault, SimulatedLab& lab) {
     case FaultKind::kCut:
       return lab.network().remove(Cut{.from = fault.process, .to = fault.peer});
     case FaultKind::kKill:
-      return lab.restart(lab.seat(fault.process));
+      return lab.restart(lab.slot(fault.process));
     case FaultKind::kFreeze:
-      return lab.thaw(lab.seat(fault.process));
+      return lab.resume(lab.slot(fault.process));
     case FaultKind::kStep:
-      return lab.set_clocks(lab.seat(fault.process), -fault.amount, 0);
+      return lab.set_clocks(lab.slot(fault.process), -fault.amount, 0);
     case FaultKind::kDrift:
-      return lab.set_clocks(lab.seat(fault.process), 0, -fault.amount);
+      return lab.set_clocks(lab.slot(fault.process), 0, -fault.amount);
     default:
       return lab.network().remove(disturbance_of(fault));
   }
@@ -84,11 +84,11 @@ class FaultRun {
   FaultRun(const scenario::Scenario& scenario, const FaultRunSettings& settings, const Trace& trace)
       : settings_(settings),
         calm_from_(end_of(settings.faults)),
-        judges_(scenario, calm_from_, trace),
-        lab_(scenario, settings.lab, judges_) {
-    judges_.attach(lab_);
-    lab_.on_change = [this](const Seat& seat) { judges_.changed(seat); };
-    lab_.pose_of = [this](std::uint8_t vehicle) { return judges_.pose_of(vehicle); };
+        monitor_(scenario, calm_from_, trace),
+        lab_(scenario, settings.lab, monitor_) {
+    monitor_.attach(lab_);
+    lab_.on_change = [this](const ProcessSlot& slot) { monitor_.changed(slot); };
+    lab_.pose_of = [this](std::uint8_t vehicle) { return monitor_.pose_of(vehicle); };
     for (std::uint32_t i = 0; i < settings.faults.size(); ++i) {
       lab_.set_alarm(settings.faults[i].begin, 2 * i);
       lab_.set_alarm(settings.faults[i].end, 2 * i + 1);
@@ -97,7 +97,7 @@ class FaultRun {
   }
 
   FaultRunResult drive() {
-    while (!is_over_ && !lab_.is_deserted()) {
+    while (!is_over_ && !lab_.has_ended()) {
       const std::optional<std::uint32_t> alarm = lab_.step();
       if (alarm == kCheck) {
         check();
@@ -105,49 +105,49 @@ class FaultRun {
         change(settings_.faults[*alarm / 2], *alarm % 2 == 0);
       }
     }
-    return judges_.result();
+    return monitor_.result();
   }
 
  private:
   static constexpr std::uint32_t kCheck = ~std::uint32_t{0};
 
   void change(const Fault& fault, bool begins) {
-    judges_.trace([&] { return (begins ? "begin of " : "end of ") + to_string(fault); });
+    monitor_.trace([&] { return (begins ? "begin of " : "end of ") + to_string(fault); });
     begins ? begin(fault, lab_) : finish(fault, lab_);
     if (!begins || (fault.kind != FaultKind::kKill && fault.kind != FaultKind::kFreeze)) return;
-    judges_.held_up(lab_.seat(fault.process));
-    if (fault.kind == FaultKind::kKill) judges_.killed(lab_.seat(fault.process));
+    monitor_.held_up(lab_.slot(fault.process));
+    if (fault.kind == FaultKind::kKill) monitor_.killed(lab_.slot(fault.process));
   }
 
   void check() {
     lab_.set_alarm(lab_.now() + kCheckPeriod, kCheck);
-    judges_.judge_ticks();
+    monitor_.check_ticks();
     check_waits();
     if (settings_.lab.is_logical) {
-      if (lab_.now() >= calm_from_ + kLogicalPatience) expect_nobody();
+      if (lab_.now() >= calm_from_ + kLogicalPatience) expect_all_ended();
       return;
     }
-    if (!is_planning_judged_ && lab_.now() >= calm_from_ + PlanningCheck::kPatience) {
-      is_planning_judged_ = true;
-      judges_.judge_planning(able_vehicles());
+    if (!is_planning_checked_ && lab_.now() >= calm_from_ + PlanningCheck::kPatience) {
+      is_planning_checked_ = true;
+      monitor_.check_planning(able_vehicles());
     }
     if (!interrupted_at_ && lab_.now() >= calm_from_ + settings_.calm) interrupt();
-    if (interrupted_at_ && lab_.now() >= *interrupted_at_ + kLeaveTime) expect_nobody();
+    if (interrupted_at_ && lab_.now() >= *interrupted_at_ + kLeaveTime) expect_all_ended();
   }
 
   /// No process polls for a past event; and in real time every running process has a wake-up time
   /// without messages. (In logical time a controller waits for its
   /// middleware alone, whose waits end.)
   void check_waits() {
-    for (Seat& seat : lab_.seats()) {
-      const std::uint64_t turns = std::exchange(seat.num_turns, 0);
-      if (!seat.process || seat.is_frozen) continue;
-      if (turns > kMostTurns) {
-        judges_.report_violation(seat.name + " spins: " + std::to_string(turns) +
-                                 " turns in 0.1 s");
+    for (ProcessSlot& slot : lab_.slots()) {
+      const std::uint64_t iterations = std::exchange(slot.num_iterations, 0);
+      if (!slot.process || slot.is_frozen) continue;
+      if (iterations > kMostIterations) {
+        monitor_.report_violation(slot.name + " spins: " + std::to_string(iterations) +
+                                  " iterations in 0.1 s");
       }
-      if (seat.planned_turn == kNoTurn && !settings_.lab.is_logical) {
-        judges_.report_violation(seat.name + " waits without an end");
+      if (slot.planned_iteration == kNever && !settings_.lab.is_logical) {
+        monitor_.report_violation(slot.name + " waits without an end");
       }
     }
   }
@@ -156,15 +156,16 @@ class FaultRun {
   /// stop, and an experiment that has not begun does not begin while a process is missing.
   [[nodiscard]] std::vector<std::uint8_t> able_vehicles() {
     std::vector<std::uint8_t> able;
-    const bool is_complete_lab =
-        std::ranges::all_of(lab_.seats(), [](const Seat& seat) { return seat.process != nullptr; });
-    if (!lab_.seats().front().process || !(is_complete_lab || judges_.has_begun())) return able;
-    if (!judges_.has_begun() && may_lose_start()) return able;
-    for (const Seat& seat : lab_.seats()) {
-      const std::uint8_t id = seat.key.vehicle;
-      const bool is_complete = std::ranges::all_of(
-          lab_.seats(), [id](const Seat& one) { return one.key.vehicle != id || one.process; });
-      if (seat.key.role == Role::kVehicle && is_complete) able.push_back(id);
+    const bool is_complete_lab = std::ranges::all_of(
+        lab_.slots(), [](const ProcessSlot& slot) { return slot.process != nullptr; });
+    if (!lab_.slots().front().process || !(is_complete_lab || monitor_.has_begun())) return able;
+    if (!monitor_.has_begun() && may_lose_start()) return able;
+    for (const ProcessSlot& slot : lab_.slots()) {
+      const std::uint8_t id = slot.key.vehicle;
+      const bool is_complete = std::ranges::all_of(lab_.slots(), [id](const ProcessSlot& one) {
+        return one.key.vehicle != id || one.process;
+      });
+      if (slot.key.role == Role::kVehicle && is_complete) able.push_back(id);
     }
     return able;
   }
@@ -178,23 +179,23 @@ class FaultRun {
 
   void interrupt() {
     interrupted_at_ = lab_.now();
-    judges_.trace([] { return std::string("the run is interrupted"); });
-    lab_.interrupt(lab_.seats().front());
+    monitor_.trace([] { return std::string("the run is interrupted"); });
+    lab_.interrupt(lab_.slots().front());
   }
 
-  void expect_nobody() {
+  void expect_all_ended() {
     is_over_ = true;
-    for (const Seat& seat : lab_.seats()) {
-      if (seat.process) judges_.report_violation(seat.name + " does not end");
+    for (const ProcessSlot& slot : lab_.slots()) {
+      if (slot.process) monitor_.report_violation(slot.name + " does not end");
     }
   }
 
   const FaultRunSettings& settings_;
   Nanoseconds calm_from_;
-  RunJudges judges_;
+  RunMonitor monitor_;
   SimulatedLab lab_;
   std::optional<Nanoseconds> interrupted_at_;
-  bool is_planning_judged_{};
+  bool is_planning_checked_{};
   bool is_over_{};
 };
 

@@ -6,7 +6,7 @@
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/closed_loop/fault_plan.hpp"
 #include "vehicle_sim/closed_loop/process_factory.hpp"
-#include "vehicle_sim/closed_loop/run_judges.hpp"
+#include "vehicle_sim/closed_loop/run_monitor.hpp"
 
 namespace hlc::closed_loop {
 

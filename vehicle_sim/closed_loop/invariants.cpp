@@ -35,18 +35,18 @@ void FootprintsCheck::driven(std::uint8_t vehicle, std::uint64_t tick, const Pos
   }
   while (car.end() < tick) car.poses.push_back(car.poses.back());
   if (tick >= car.end()) car.poses.push_back(pose);
-  if (is_unreachable) car.excuse(tick, tick + 1);
+  if (is_unreachable) car.exempt(tick, tick + 1);
 }
 
-void FootprintsCheck::Car::excuse(std::uint64_t from, std::uint64_t until) {
-  if (from > excused_until) excused_from = from;
-  excused_until = until;
+void FootprintsCheck::Car::exempt(std::uint64_t from, std::uint64_t until) {
+  if (from > exempt_until) exempt_from = from;
+  exempt_until = until;
 }
 
 void FootprintsCheck::died(std::uint8_t vehicle, std::uint64_t unreachable_ticks) {
   Car& car = cars_.at(vehicle);
   car.has_ended = true;
-  car.excuse(car.end(), car.end() + unreachable_ticks);
+  car.exempt(car.end(), car.end() + unreachable_ticks);
 }
 
 std::uint64_t FootprintsCheck::all_driven_until() const {
@@ -57,7 +57,7 @@ std::uint64_t FootprintsCheck::all_driven_until() const {
   return end.value_or(0);
 }
 
-void FootprintsCheck::judge(Nanoseconds at, Violations& violations) {
+void FootprintsCheck::check(Nanoseconds at, Violations& violations) {
   if (!next_) return;
   const std::uint64_t end = all_driven_until();
   for (; *next_ < end; ++*next_) {
@@ -82,9 +82,9 @@ bool FootprintsCheck::touches_first_time(const Cars::value_type& a, const Cars::
   if (centres_m - 2 * circumradius_m_ > smallest_distance_m_) return false;
   const double gap_m =
       distance_m(footprint_area(footprint_, pose_a), footprint_area(footprint_, pose_b));
-  const bool is_excused = a.second.is_excused(tick) || b.second.is_excused(tick);
-  if (!is_excused) smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
-  return gap_m <= 0.0 && touched_.insert({a.first, b.first}).second && !is_excused;
+  const bool is_exempt = a.second.is_exempt(tick) || b.second.is_exempt(tick);
+  if (!is_exempt) smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
+  return gap_m <= 0.0 && touched_.insert({a.first, b.first}).second && !is_exempt;
 }
 
 // --- plans --------------------------------------------------------------------------------------
@@ -96,7 +96,7 @@ bool PlansCheck::is_relied_on(const InForce& plan, StepIndex now) const {
   return !has_run_out && (plan.is_received || !is_silent);
 }
 
-/// A vehicle that stands elsewhere than its plan says: it has been anchored there, and may agree to
+/// A vehicle that stands elsewhere than in its plan: it has been anchored there, and may agree to
 /// a new plan in the same step.
 void PlansCheck::published(const coordination::Traffic& traffic) {
   const auto found = in_force_.find(traffic.vehicle);
@@ -166,7 +166,7 @@ void ReasonsCheck::ended(const std::string& process, int exit_code, Nanoseconds 
        .text = process + " ended with code " + std::to_string(exit_code) + " and did not log why"});
 }
 
-void ReasonsCheck::judge(Nanoseconds at, Violations& violations) {
+void ReasonsCheck::check(Nanoseconds at, Violations& violations) {
   for (auto& [process, lines] : lines_) {
     const auto stopped = std::exchange(lines.stopped, std::nullopt);
     if (!stopped || (lines.last && *lines.last >= *stopped)) continue;
@@ -191,7 +191,7 @@ void PlanningCheck::report(const ReportRecord& record, Nanoseconds at) {
     plans_[report.vehicle.value] = true;
 }
 
-void PlanningCheck::judge(const std::vector<std::uint8_t>& able, Nanoseconds at,
+void PlanningCheck::check(const std::vector<std::uint8_t>& able, Nanoseconds at,
                           Violations& violations) const {
   for (const std::uint8_t vehicle : able) {
     if (plans_.contains(vehicle)) continue;

@@ -38,23 +38,23 @@ class FootprintsCheck {
   void died(std::uint8_t vehicle, std::uint64_t unreachable_ticks);
   void came_back(std::uint8_t vehicle) { cars_.at(vehicle).has_ended = false; }
   /// Checks the ticks that all have driven by now.
-  void judge(Nanoseconds at, Violations& violations);
+  void check(Nanoseconds at, Violations& violations);
   /// Smallest distance so far [m].
   [[nodiscard]] double smallest_distance_m() const { return smallest_distance_m_; }
 
  private:
   struct Car {
     Pose start;
-    std::uint64_t first{};         ///< tick of poses[0]
-    std::vector<Pose> poses;       ///< of the ticks since then
-    std::uint64_t excused_from{};  ///< ticks for which no controller is responsible; the last ones
-    std::uint64_t excused_until{};
+    std::uint64_t first{};        ///< tick of poses[0]
+    std::vector<Pose> poses;      ///< of the ticks since then
+    std::uint64_t exempt_from{};  ///< ticks for which no controller is responsible; the last ones
+    std::uint64_t exempt_until{};
     bool has_ended{};
     [[nodiscard]] std::uint64_t end() const { return first + poses.size(); }
     [[nodiscard]] const Pose& at(std::uint64_t tick) const;
-    void excuse(std::uint64_t from, std::uint64_t until);
-    [[nodiscard]] bool is_excused(std::uint64_t tick) const {
-      return tick >= excused_from && tick < excused_until;
+    void exempt(std::uint64_t from, std::uint64_t until);
+    [[nodiscard]] bool is_exempt(std::uint64_t tick) const {
+      return tick >= exempt_from && tick < exempt_until;
     }
   };
   using Cars = std::map<std::uint8_t, Car>;
@@ -72,7 +72,7 @@ class FootprintsCheck {
   double smallest_distance_m_{1e9};
 };
 
-/// The plan to stand where the vehicle stands, which nobody has agreed to.
+/// The plan to stand where the vehicle stands: no other vehicle has agreed to it.
 [[nodiscard]] inline bool is_anchored(const coordination::Plan& plan) {
   return plan.first() == plan.end();
 }
@@ -135,8 +135,9 @@ class ReasonsCheck {
   /// One tick of a vehicle.
   void driven(const std::string& vehicle, bool follows, Nanoseconds at);
   void ended(const std::string& process, int exit_code, Nanoseconds at, Violations& violations);
-  /// To be called between two turns, so that lines of a turn are known when its ticks are checked.
-  void judge(Nanoseconds at, Violations& violations);
+  /// To be called between two iterations, so that lines of an iteration are known when its ticks are
+  /// checked.
+  void check(Nanoseconds at, Violations& violations);
 
  private:
   struct Lines {
@@ -164,7 +165,7 @@ class PlanningCheck {
   void report(const ReportRecord& record, Nanoseconds at);
   /// To be called at calm_from + kPatience.
   /// @param able  vehicles whose processes are all there
-  void judge(const std::vector<std::uint8_t>& able, Nanoseconds at, Violations& violations) const;
+  void check(const std::vector<std::uint8_t>& able, Nanoseconds at, Violations& violations) const;
 
  private:
   Nanoseconds calm_from_;

@@ -34,181 +34,183 @@ SimulatedLab::SimulatedLab(const scenario::Scenario& scenario, const LabSettings
       queue_(kBegin),
       now_(kBegin),
       network_(queue_, network_options(settings)) {
-  for (const ProcessKey& key : factory_.processes()) add_seat(key);
+  for (const ProcessKey& key : factory_.processes()) add_slot(key);
 }
 
-void SimulatedLab::add_seat(const ProcessKey& key) {
-  SeededRandom random(mixed(settings_.seed, 1000 + seats_.size()));
+void SimulatedLab::add_slot(const ProcessKey& key) {
+  SeededRandom random(mixed(settings_.seed, 1000 + slots_.size()));
   const auto drift_ppb = static_cast<std::int64_t>(random.below(2 * kMostDrift_ppb + 1)) -
                          static_cast<std::int64_t>(kMostDrift_ppb);
   const Nanoseconds shows = kBegin + random.below(2 * kMostClockError + 1) - kMostClockError;
   const Nanoseconds uptime = random.between(1, 1'000'000) * kNanosecondsPerMillisecond;
-  Seat seat{.key = key, .name = name_of(key)};
-  seat.run_clock = SimulatedClock(kBegin, shows, drift_ppb);
-  seat.wall_clock = SimulatedClock(kBegin, uptime, drift_ppb);
+  ProcessSlot slot{.key = key, .name = name_of(key)};
+  slot.run_clock = SimulatedClock(kBegin, shows, drift_ppb);
+  slot.wall_clock = SimulatedClock(kBegin, uptime, drift_ppb);
   queue_.add(kBegin + random.below(kLastStart),
-             {.what = Happening::kStart, .detail = static_cast<std::uint32_t>(seats_.size())});
-  by_name_[seat.name] = seats_.size();
-  seats_.push_back(std::move(seat));
+             {.what = EventKind::kStart, .detail = static_cast<std::uint32_t>(slots_.size())});
+  by_name_[slot.name] = slots_.size();
+  slots_.push_back(std::move(slot));
 }
 
 Nanoseconds SimulatedLab::now() const { return now_ - kBegin; }
 
 void SimulatedLab::set_alarm(Nanoseconds at, std::uint32_t number) {
-  queue_.add(kBegin + at, {.what = Happening::kAlarm, .detail = number});
+  queue_.add(kBegin + at, {.what = EventKind::kAlarm, .detail = number});
 }
 
 std::optional<std::uint32_t> SimulatedLab::step() {
   Event event = queue_.take();
   now_ = queue_.now();
   switch (event.what) {
-    case Happening::kArrival:
+    case EventKind::kArrival:
       arrive(std::move(event));
       break;
-    case Happening::kSight:
-      look(event);
+    case EventKind::kDiscovery:
+      discover(event);
       break;
-    case Happening::kWakeUp: {
-      Seat* const seat = seat_of(event.node);
-      if (seat && !seat->is_frozen && seat->generation == event.generation) turn(*seat);
+    case EventKind::kWakeUp: {
+      ProcessSlot* const slot = slot_of(event.node);
+      if (slot && !slot->is_frozen && slot->generation == event.generation) iterate(*slot);
       break;
     }
-    case Happening::kStart:
+    case EventKind::kStart:
       // A process that was killed before its first start is started at the end of that fault.
-      if (!seats_[event.detail].is_killed) start(seats_[event.detail]);
+      if (!slots_[event.detail].is_killed) start(slots_[event.detail]);
       break;
-    case Happening::kAlarm:
+    case EventKind::kAlarm:
       return event.detail;
   }
   return std::nullopt;
 }
 
-bool SimulatedLab::is_deserted() const {
-  return std::ranges::all_of(
-      seats_, [](const Seat& seat) { return !seat.process && !seat.is_killed && seat.exit_code; });
+bool SimulatedLab::has_ended() const {
+  return std::ranges::all_of(slots_, [](const ProcessSlot& slot) {
+    return !slot.process && !slot.is_killed && slot.exit_code;
+  });
 }
 
-// --- turns --------------------------------------------------------------------------------------
+// --- iterations -----------------------------------------------------------------------------------
+// --------------------------------------------------------------------------------------
 
-void SimulatedLab::start(Seat& seat) {
-  if (seat.process) return;
-  seat.node = network_.join(factory_.description(seat.key));
-  by_node_.push_back(static_cast<std::size_t>(&seat - seats_.data()));
-  seat.is_killed = false;
-  seat.planned_turn = kNoTurn;
-  on_change(seat);
-  const ProcessPlace place{.node = seat.node,
+void SimulatedLab::start(ProcessSlot& slot) {
+  if (slot.process) return;
+  slot.node = network_.join(factory_.description(slot.key));
+  by_node_.push_back(static_cast<std::size_t>(&slot - slots_.data()));
+  slot.is_killed = false;
+  slot.planned_iteration = kNever;
+  on_change(slot);
+  const ProcessPlace place{.node = slot.node,
                            .network = &network_,
                            .observer = observer_,
-                           .run_clock = &seat.run_clock,
-                           .wall_clock = &seat.wall_clock,
+                           .run_clock = &slot.run_clock,
+                           .wall_clock = &slot.wall_clock,
                            .now = &now_,
                            .is_logical = settings_.is_logical};
-  seat.process = factory_.make(seat.key, place, pose_of(seat.key.vehicle));
-  plan_turn(seat);
+  slot.process = factory_.make(slot.key, place, pose_of(slot.key.vehicle));
+  plan_iteration(slot);
 }
 
-/// When the process has its next turn, if that is earlier than what was planned.
-void SimulatedLab::plan_turn(Seat& seat) {
-  if (!seat.process || seat.is_frozen) return;
-  const Nanoseconds next = seat.process->next_turn();
-  if (next == kNoTurn) return;
+/// When the process has its next iteration, if that is earlier than what was planned.
+void SimulatedLab::plan_iteration(ProcessSlot& slot) {
+  if (!slot.process || slot.is_frozen) return;
+  const Nanoseconds next = slot.process->next_iteration();
+  if (next == kNever) return;
   const Nanoseconds reaction =
       kLeastReaction +
-      mixed(settings_.seed ^ seat.node, seat.num_plans++) % (kMostReaction - kLeastReaction);
+      mixed(settings_.seed ^ slot.node, slot.num_plans++) % (kMostReaction - kLeastReaction);
   const Nanoseconds at = std::max(next, now_) + reaction;
-  if (at >= seat.planned_turn) return;
-  seat.planned_turn = at;
-  queue_.add(at, {.what = Happening::kWakeUp, .node = seat.node, .generation = ++seat.generation});
+  if (at >= slot.planned_iteration) return;
+  slot.planned_iteration = at;
+  queue_.add(at, {.what = EventKind::kWakeUp, .node = slot.node, .generation = ++slot.generation});
 }
 
-void SimulatedLab::turn(Seat& seat) {
-  seat.planned_turn = kNoTurn;
-  ++seat.num_turns;
-  seat.process->turn();
-  seat.exit_code = seat.process->exit_code();
-  if (!seat.exit_code) return plan_turn(seat);
-  network_.leave(seat.node);
-  seat.process.reset();
-  on_change(seat);
+void SimulatedLab::iterate(ProcessSlot& slot) {
+  slot.planned_iteration = kNever;
+  ++slot.num_iterations;
+  slot.process->iterate();
+  slot.exit_code = slot.process->exit_code();
+  if (!slot.exit_code) return plan_iteration(slot);
+  network_.leave(slot.node);
+  slot.process.reset();
+  on_change(slot);
 }
 
-Seat* SimulatedLab::seat_of(NodeId node) {
-  Seat& seat = seats_[by_node_[node]];
-  return seat.process && seat.node == node ? &seat : nullptr;
+ProcessSlot* SimulatedLab::slot_of(NodeId node) {
+  ProcessSlot& slot = slots_[by_node_[node]];
+  return slot.process && slot.node == node ? &slot : nullptr;
 }
 
 void SimulatedLab::arrive(Event event) {
   const auto arrival = network_.arrive(std::move(event));
   if (!arrival) return;
-  Seat* const seat = seat_of(arrival->node);
-  if (!seat) return;
-  if (seat->is_frozen) {
-    seat->unread.emplace_back(arrival->topic, arrival->message);
+  ProcessSlot* const slot = slot_of(arrival->node);
+  if (!slot) return;
+  if (slot->is_frozen) {
+    slot->unread.emplace_back(arrival->topic, arrival->message);
     return;
   }
-  seat->process->receive(arrival->topic, *arrival->message);
-  plan_turn(*seat);
+  slot->process->receive(arrival->topic, *arrival->message);
+  plan_iteration(*slot);
 }
 
-void SimulatedLab::look(const Event& event) {
-  if (!network_.look(event)) return;
-  Seat* const seat = seat_of(event.node);
-  if (!seat) return;
-  seat->process->presence_changed();
-  plan_turn(*seat);
+void SimulatedLab::discover(const Event& event) {
+  if (!network_.discover(event)) return;
+  ProcessSlot* const slot = slot_of(event.node);
+  if (!slot) return;
+  slot->process->presence_changed();
+  plan_iteration(*slot);
 }
 
 // --- faults -------------------------------------------------------------------------------------
 
-void SimulatedLab::kill(Seat& seat) {
-  if (seat.exit_code) return;
-  seat.is_killed = true;
-  seat.is_frozen = false;
-  seat.unread.clear();
-  if (!seat.process) return;
-  seat.process.reset();
-  network_.vanish(seat.node);
+void SimulatedLab::kill(ProcessSlot& slot) {
+  if (slot.exit_code) return;
+  slot.is_killed = true;
+  slot.is_frozen = false;
+  slot.unread.clear();
+  if (!slot.process) return;
+  slot.process.reset();
+  network_.crash(slot.node);
 }
 
-void SimulatedLab::restart(Seat& seat) {
-  if (seat.is_killed) start(seat);
+void SimulatedLab::restart(ProcessSlot& slot) {
+  if (slot.is_killed) start(slot);
 }
 
-void SimulatedLab::freeze(Seat& seat) {
-  if (!seat.process) return;
-  seat.is_frozen = true;
-  seat.planned_turn = kNoTurn;
-  ++seat.generation;
-  network_.freeze(seat.node);
+void SimulatedLab::freeze(ProcessSlot& slot) {
+  if (!slot.process) return;
+  slot.is_frozen = true;
+  slot.planned_iteration = kNever;
+  ++slot.generation;
+  network_.freeze(slot.node);
 }
 
-void SimulatedLab::thaw(Seat& seat) {
-  if (!seat.process || !seat.is_frozen) return;
-  seat.is_frozen = false;
-  for (const auto& [topic, message] : std::exchange(seat.unread, {})) {
-    seat.process->receive(topic, *message);
+void SimulatedLab::resume(ProcessSlot& slot) {
+  if (!slot.process || !slot.is_frozen) return;
+  slot.is_frozen = false;
+  for (const auto& [topic, message] : std::exchange(slot.unread, {})) {
+    slot.process->receive(topic, *message);
   }
-  network_.thaw(seat.node);
-  plan_turn(seat);
+  network_.resume(slot.node);
+  plan_iteration(slot);
 }
 
-void SimulatedLab::interrupt(Seat& seat) {
-  if (!seat.process) return;
-  seat.process->stop();
-  plan_turn(seat);
+void SimulatedLab::interrupt(ProcessSlot& slot) {
+  if (!slot.process) return;
+  slot.process->stop();
+  plan_iteration(slot);
 }
 
-void SimulatedLab::set_clocks(Seat& seat, std::int64_t step, std::int64_t drift_ppb) {
-  if (step != 0) seat.run_clock.step(now_, step);
+void SimulatedLab::set_clocks(ProcessSlot& slot, std::int64_t step, std::int64_t drift_ppb) {
+  if (step != 0) slot.run_clock.step(now_, step);
   if (drift_ppb != 0) {
-    for (SimulatedClock* clock : {&seat.run_clock, &seat.wall_clock}) {
+    for (SimulatedClock* clock : {&slot.run_clock, &slot.wall_clock}) {
       clock->set_drift(now_, clock->drift_ppb() + drift_ppb);
     }
   }
-  if (!seat.process) return;
-  seat.process->clocks_changed();
-  plan_turn(seat);
+  if (!slot.process) return;
+  slot.process->clocks_changed();
+  plan_iteration(slot);
 }
 
 }  // namespace hlc::closed_loop

@@ -19,7 +19,7 @@
 namespace hlc::closed_loop {
 
 /// The current state of a process of the lab. Its clocks outlive it.
-struct Seat {
+struct ProcessSlot {
   ProcessKey key;
   std::string name;
   SimulatedClock run_clock{0, 0, 0};
@@ -30,9 +30,9 @@ struct Seat {
   bool is_killed{};                                          ///< and not started again yet
   std::optional<int> exit_code;                              ///< it has ended by itself
   std::deque<std::pair<std::size_t, SharedMessage>> unread;  ///< while frozen
-  Nanoseconds planned_turn{kNoTurn};
-  std::uint32_t generation{};  ///< of that plan
-  std::uint64_t num_turns{};   ///< since the counter was reset
+  Nanoseconds planned_iteration{kNever};
+  std::uint32_t generation{};      ///< of that plan
+  std::uint64_t num_iterations{};  ///< since the counter was reset
   std::uint64_t num_plans{};
 };
 
@@ -60,41 +60,41 @@ class SimulatedLab {
   /// Executes the next event; the number of an alarm if it is one. @pre an alarm is set
   std::optional<std::uint32_t> step();
 
-  [[nodiscard]] std::vector<Seat>& seats() { return seats_; }
+  [[nodiscard]] std::vector<ProcessSlot>& slots() { return slots_; }
   /// @pre there is a process of that name
-  [[nodiscard]] Seat& seat(const std::string& name) { return seats_[by_name_.at(name)]; }
+  [[nodiscard]] ProcessSlot& slot(const std::string& name) { return slots_[by_name_.at(name)]; }
   [[nodiscard]] SimulatedNetwork& network() { return network_; }
   [[nodiscard]] const std::string& name(NodeId node) const { return network_.name(node); }
   /// All processes have ended by themselves.
-  [[nodiscard]] bool is_deserted() const;
+  [[nodiscard]] bool has_ended() const;
 
   /// Kills the process at any point; without effect on one that has ended by itself.
-  void kill(Seat& seat);
+  void kill(ProcessSlot& slot);
   /// One that was killed.
-  void restart(Seat& seat);
+  void restart(ProcessSlot& slot);
   /// SIGSTOP and SIGCONT.
-  void freeze(Seat& seat);
-  void thaw(Seat& seat);
+  void freeze(ProcessSlot& slot);
+  void resume(ProcessSlot& slot);
   /// SIGINT.
-  void interrupt(Seat& seat);
+  void interrupt(ProcessSlot& slot);
   /// @param step       [ns], of the real-time clock
   /// @param drift_ppb  that both its clocks gain in addition
-  void set_clocks(Seat& seat, std::int64_t step, std::int64_t drift_ppb);
+  void set_clocks(ProcessSlot& slot, std::int64_t step, std::int64_t drift_ppb);
 
   /// Called when a process has begun or ended (then with its exit code).
-  std::function<void(const Seat&)> on_change{[](const Seat&) {}};
+  std::function<void(const ProcessSlot&)> on_change{[](const ProcessSlot&) {}};
   /// Pose of a restarted vehicle.
   std::function<std::optional<Pose>(std::uint8_t)> pose_of{
       [](std::uint8_t) { return std::nullopt; }};
 
  private:
-  void add_seat(const ProcessKey& key);
-  void start(Seat& seat);
-  void plan_turn(Seat& seat);
-  void turn(Seat& seat);
+  void add_slot(const ProcessKey& key);
+  void start(ProcessSlot& slot);
+  void plan_iteration(ProcessSlot& slot);
+  void iterate(ProcessSlot& slot);
   void arrive(Event event);
-  void look(const Event& event);
-  [[nodiscard]] Seat* seat_of(NodeId node);
+  void discover(const Event& event);
+  [[nodiscard]] ProcessSlot* slot_of(NodeId node);
 
   LabSettings settings_;
   ProcessFactory factory_;
@@ -102,7 +102,7 @@ class SimulatedLab {
   EventQueue queue_;
   Nanoseconds now_;
   SimulatedNetwork network_;
-  std::vector<Seat> seats_;
+  std::vector<ProcessSlot> slots_;
   std::map<std::string, std::size_t> by_name_;
   std::vector<std::size_t> by_node_;
 };

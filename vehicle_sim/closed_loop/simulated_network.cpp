@@ -41,10 +41,10 @@ NodeId SimulatedNetwork::join(const NodeDescription& description) {
     connect(other, id);
     for (const Domain domain : nodes_[id].domains) {
       if (!nodes_[other].domains.contains(domain)) continue;
-      new_sight(id, other, domain).is_open = false;
-      new_sight(other, id, domain).is_open = false;
-      update_sight(id, other, domain);
-      update_sight(other, id, domain);
+      new_discovery(id, other, domain).is_open = false;
+      new_discovery(other, id, domain).is_open = false;
+      update_discovery(id, other, domain);
+      update_discovery(other, id, domain);
     }
   }
   return id;
@@ -74,56 +74,57 @@ void SimulatedNetwork::leave(NodeId node) {
   nodes_[node].is_gone = true;
   for (NodeId other = 0; other < nodes_.size(); ++other) {
     for (const Domain domain : nodes_[node].domains) {
-      auto& sights = nodes_[other].sights[index_of(domain)];
-      if (node >= sights.size() || !sights[node].is_known || nodes_[other].is_gone) continue;
-      Sight& sight = sights[node];
-      const bool is_reachable = sight.is_open && !is_cut(node, other, domain);
-      update_sight(other, node, domain);
-      if (!is_reachable || !sight.is_seen) continue;
-      ++sight.generation;
+      auto& discoveries = nodes_[other].discoveries[index_of(domain)];
+      if (node >= discoveries.size() || !discoveries[node].is_known || nodes_[other].is_gone)
+        continue;
+      Discovery& discovery = discoveries[node];
+      const bool is_reachable = discovery.is_open && !is_cut(node, other, domain);
+      update_discovery(other, node, domain);
+      if (!is_reachable || !discovery.is_seen) continue;
+      ++discovery.generation;
       queue_->add(queue_->now() + options_.most_delay,
-                  {.what = Happening::kSight,
+                  {.what = EventKind::kDiscovery,
                    .node = other,
                    .other = node,
                    .detail = static_cast<std::uint32_t>(domain),
-                   .generation = sight.generation});
+                   .generation = discovery.generation});
     }
   }
 }
 
-void SimulatedNetwork::vanish(NodeId node) {
+void SimulatedNetwork::crash(NodeId node) {
   nodes_[node].is_gone = true;
-  update_sights_of(node);
+  update_discoveries_of(node);
 }
 
 void SimulatedNetwork::freeze(NodeId node) {
   nodes_[node].is_frozen = true;
   nodes_[node].frozen_at = queue_->now();
-  update_sights_of(node);
+  update_discoveries_of(node);
 }
 
-void SimulatedNetwork::thaw(NodeId node) {
+void SimulatedNetwork::resume(NodeId node) {
   nodes_[node].is_frozen = false;
-  update_sights_of(node);
+  update_discoveries_of(node);
   if (queue_->now() - nodes_[node].frozen_at >= options_.lease) miss_some(node);
 }
 
 /// Its leases of the others have run out, but their messages wait to be read: their order is
 /// random.
 void SimulatedNetwork::miss_some(NodeId node) {
-  SeededRandom random(mixed(options_.seed, ++num_sights_ + (1ULL << 32U)));
+  SeededRandom random(mixed(options_.seed, ++num_discoveries_ + (1ULL << 32U)));
   for (std::uint32_t domain = 0; domain < kNumDomains; ++domain) {
-    auto& sights = nodes_[node].sights[domain];
-    for (NodeId other = 0; other < sights.size(); ++other) {
-      Sight& sight = sights[other];
-      if (!sight.is_seen || !sight.is_open || random.chance(0.5)) continue;
-      sight.is_open = false;
-      ++sight.generation;
-      queue_->add(queue_->now(), {.what = Happening::kSight,
+    auto& discoveries = nodes_[node].discoveries[domain];
+    for (NodeId other = 0; other < discoveries.size(); ++other) {
+      Discovery& discovery = discoveries[other];
+      if (!discovery.is_seen || !discovery.is_open || random.chance(0.5)) continue;
+      discovery.is_open = false;
+      ++discovery.generation;
+      queue_->add(queue_->now(), {.what = EventKind::kDiscovery,
                                   .node = node,
                                   .other = other,
                                   .detail = domain,
-                                  .generation = sight.generation});
+                                  .generation = discovery.generation});
     }
   }
 }
@@ -133,7 +134,7 @@ void SimulatedNetwork::miss_some(NodeId node) {
 void SimulatedNetwork::add(const Cut& cut) {
   cuts_.push_back(cut);
   for (NodeId node = 0; node < nodes_.size(); ++node) {
-    if (is_meant(nodes_[node].name, cut.from)) update_sights_of(node);
+    if (is_meant(nodes_[node].name, cut.from)) update_discoveries_of(node);
   }
 }
 
@@ -142,7 +143,7 @@ void SimulatedNetwork::remove(const Cut& cut) {
   if (found == cuts_.end()) return;
   cuts_.erase(found);
   for (NodeId node = 0; node < nodes_.size(); ++node) {
-    if (is_meant(nodes_[node].name, cut.from)) update_sights_of(node);
+    if (is_meant(nodes_[node].name, cut.from)) update_discoveries_of(node);
   }
 }
 
@@ -160,60 +161,61 @@ bool SimulatedNetwork::is_cut(NodeId from, NodeId to, Domain domain) const {
 
 // --- discovery ----------------------------------------------------------------------------------
 
-SimulatedNetwork::Sight& SimulatedNetwork::new_sight(NodeId observer, NodeId other, Domain domain) {
-  auto& sights = nodes_[observer].sights[index_of(domain)];
-  if (sights.size() <= other) sights.resize(other + 1);
-  sights[other].is_known = true;
-  return sights[other];
+SimulatedNetwork::Discovery& SimulatedNetwork::new_discovery(NodeId observer, NodeId other,
+                                                             Domain domain) {
+  auto& discoveries = nodes_[observer].discoveries[index_of(domain)];
+  if (discoveries.size() <= other) discoveries.resize(other + 1);
+  discoveries[other].is_known = true;
+  return discoveries[other];
 }
 
 bool SimulatedNetwork::sees(NodeId observer, NodeId other, Domain domain) const {
-  const auto& sights = nodes_[observer].sights[index_of(domain)];
-  return other < sights.size() && sights[other].is_seen;
+  const auto& discoveries = nodes_[observer].discoveries[index_of(domain)];
+  return other < discoveries.size() && discoveries[other].is_seen;
 }
 
-void SimulatedNetwork::update_sights_of(NodeId other) {
+void SimulatedNetwork::update_discoveries_of(NodeId other) {
   for (NodeId observer = 0; observer < nodes_.size(); ++observer) {
     if (observer == other || nodes_[observer].is_gone) continue;
     for (const Domain domain : nodes_[other].domains) {
-      if (nodes_[observer].domains.contains(domain)) update_sight(observer, other, domain);
+      if (nodes_[observer].domains.contains(domain)) update_discovery(observer, other, domain);
     }
   }
 }
 
 /// Plans when the observer will find or miss the other one, if nothing changes until then.
-void SimulatedNetwork::update_sight(NodeId observer, NodeId other, Domain domain) {
-  auto& sights = nodes_[observer].sights[index_of(domain)];
-  if (other >= sights.size() || !sights[other].is_known) return;
-  Sight& sight = sights[other];
+void SimulatedNetwork::update_discovery(NodeId observer, NodeId other, Domain domain) {
+  auto& discoveries = nodes_[observer].discoveries[index_of(domain)];
+  if (other >= discoveries.size() || !discoveries[other].is_known) return;
+  Discovery& discovery = discoveries[other];
   const Node& node = nodes_[other];
   const bool is_open = !node.is_gone && !node.is_frozen && !is_cut(other, observer, domain);
-  if (is_open == sight.is_open) return;
-  sight.is_open = is_open;
-  ++sight.generation;
+  if (is_open == discovery.is_open) return;
+  discovery.is_open = is_open;
+  ++discovery.generation;
   if (is_open) flush(other, observer);
-  if (is_open == sight.is_seen) return;
-  SeededRandom random(mixed(options_.seed, ++num_sights_ + (1ULL << 32U)));
+  if (is_open == discovery.is_seen) return;
+  SeededRandom random(mixed(options_.seed, ++num_discoveries_ + (1ULL << 32U)));
   const Nanoseconds period = options_.lease / kAnnouncementsPerLease;
-  const bool is_new = sight.generation == 1;
+  const bool is_new = discovery.generation == 1;
   const Nanoseconds pause = !is_open ? options_.lease - random.below(period)
                                      : random.between(kLeastDiscovery, kMostDiscovery) +
                                            (is_new ? 0 : random.below(period));
-  queue_->add(queue_->now() + pause, {.what = Happening::kSight,
+  queue_->add(queue_->now() + pause, {.what = EventKind::kDiscovery,
                                       .node = observer,
                                       .other = other,
                                       .detail = static_cast<std::uint32_t>(domain),
-                                      .generation = sight.generation});
+                                      .generation = discovery.generation});
 }
 
-bool SimulatedNetwork::look(const Event& event) {
+bool SimulatedNetwork::discover(const Event& event) {
   Node& observer = nodes_[event.node];
   const auto domain = static_cast<Domain>(event.detail);
-  auto& sights = observer.sights[event.detail];
-  Sight& sight = sights.at(event.other);
-  if (observer.is_gone || sight.generation != event.generation) return false;
-  if (sight.is_seen == sight.is_open) return false;
-  sight.is_seen = sight.is_open;
+  auto& discoveries = observer.discoveries[event.detail];
+  Discovery& discovery = discoveries.at(event.other);
+  if (observer.is_gone || discovery.generation != event.generation) return false;
+  if (discovery.is_seen == discovery.is_open) return false;
+  discovery.is_seen = discovery.is_open;
   note_names(event.node, event.other, domain);
   const auto between = between_.find({event.node, event.other});
   if (between != between_.end()) {
@@ -221,14 +223,14 @@ bool SimulatedNetwork::look(const Event& event) {
       Channel& channel = channels_[index];
       if (channel.rules.domain != domain) continue;
       channel.waiting.clear();
-      if (sight.is_seen && channel.rules.is_kept_late) {
+      if (discovery.is_seen && channel.rules.is_kept_late) {
         channel.waiting = observer.kept[channel.outlet];
       }
     }
   }
   flush(event.node, event.other);
   flush(event.other, event.node);
-  update_sight(event.node, event.other, domain);  // lost although present
+  update_discovery(event.node, event.other, domain);  // lost although present
   return true;
 }
 
@@ -236,10 +238,10 @@ bool SimulatedNetwork::look(const Event& event) {
 void SimulatedNetwork::note_names(NodeId observer, NodeId other, Domain domain) {
   Node& node = nodes_[observer];
   const std::string& name = nodes_[other].name;
-  const auto& sights = node.sights[index_of(domain)];
+  const auto& discoveries = node.discoveries[index_of(domain)];
   bool is_there = false;
-  for (NodeId one = 0; one < sights.size() && !is_there; ++one) {
-    is_there = sights[one].is_seen && nodes_[one].name == name;
+  for (NodeId one = 0; one < discoveries.size() && !is_there; ++one) {
+    is_there = discoveries[one].is_seen && nodes_[one].name == name;
   }
   machine::Participants& participants = node.participants[index_of(domain)];
   if (is_there) {
@@ -267,9 +269,9 @@ std::set<std::string> SimulatedNetwork::writers(NodeId node, std::size_t topic) 
   const Topic& wanted = nodes_[node].reads[topic];
   const Domain domain = rules_of(wanted.id, options_.transport).domain;
   std::set<std::string> names;
-  const auto& sights = nodes_[node].sights[index_of(domain)];
-  for (NodeId other = 0; other < sights.size(); ++other) {
-    if (sights[other].is_seen && std::ranges::count(nodes_[other].writes, wanted) > 0) {
+  const auto& discoveries = nodes_[node].discoveries[index_of(domain)];
+  for (NodeId other = 0; other < discoveries.size(); ++other) {
+    if (discoveries[other].is_seen && std::ranges::count(nodes_[other].writes, wanted) > 0) {
       names.insert(nodes_[other].name);
     }
   }
@@ -350,9 +352,9 @@ void SimulatedNetwork::transmit(std::uint32_t index, const SharedMessage& messag
     arrival = std::max(arrival, channel.last_arrival);
     channel.last_arrival = arrival;
   }
-  queue_->add(arrival, {.what = Happening::kArrival, .detail = index, .message = message});
+  queue_->add(arrival, {.what = EventKind::kArrival, .detail = index, .message = message});
   if (second != 0) {
-    queue_->add(second, {.what = Happening::kArrival, .detail = index, .message = message});
+    queue_->add(second, {.what = EventKind::kArrival, .detail = index, .message = message});
   }
 }
 

@@ -77,10 +77,10 @@ class SimulatedNetwork {
   /// Orderly end: the others see it at once.
   void leave(NodeId node);
   /// Killed: the others lose it when its lease has run out.
-  void vanish(NodeId node);
+  void crash(NodeId node);
   /// Suspended: arriving messages wait, and it shows no sign of life.
   void freeze(NodeId node);
-  void thaw(NodeId node);
+  void resume(NodeId node);
 
   // Faults.
   void add(const Cut& cut);
@@ -91,7 +91,7 @@ class SimulatedNetwork {
   /// @param topic  index among the description's `writes`
   void publish(NodeId node, std::size_t topic, Message message);
 
-  /// An event that is due: an arrival or a sight.
+  /// An event that is due: an arrival or a discovery.
   struct Arrival {
     NodeId node{};
     std::size_t topic{};  ///< index among the reader's `reads`
@@ -100,7 +100,7 @@ class SimulatedNetwork {
   /// Nothing if the reader no longer matches the writer.
   [[nodiscard]] std::optional<Arrival> arrive(Event event);
   /// True if `event.node` now sees a participant that it did not see, or has lost one.
-  [[nodiscard]] bool look(const Event& event);
+  [[nodiscard]] bool discover(const Event& event);
 
   /// Participants that a node sees on a domain.
   [[nodiscard]] machine::Participants participants(NodeId node, Domain domain) const;
@@ -112,7 +112,7 @@ class SimulatedNetwork {
   [[nodiscard]] const std::string& name(NodeId node) const { return nodes_[node].name; }
 
  private:
-  struct Sight {
+  struct Discovery {
     bool is_known{};     ///< there is such a participant
     bool is_open{true};  ///< signs of life pass
     bool is_seen{};
@@ -131,7 +131,7 @@ class SimulatedNetwork {
     /// By topic written: messages for late joiners.
     std::vector<std::deque<SharedMessage>> kept;
     /// By domain and node: of others, as this one sees them.
-    std::array<std::vector<Sight>, kNumDomains> sights;
+    std::array<std::vector<Discovery>, kNumDomains> discoveries;
     std::array<machine::Participants, kNumDomains> participants;
   };
   struct Channel {
@@ -148,7 +148,7 @@ class SimulatedNetwork {
 
   void miss_some(NodeId node);
   void connect(NodeId from, NodeId to);
-  [[nodiscard]] Sight& new_sight(NodeId observer, NodeId other, Domain domain);
+  [[nodiscard]] Discovery& new_discovery(NodeId observer, NodeId other, Domain domain);
   [[nodiscard]] bool sees(NodeId observer, NodeId other, Domain domain) const;
   [[nodiscard]] bool is_cut(NodeId from, NodeId to, Domain domain) const;
   [[nodiscard]] bool passes(const Channel& channel) const;
@@ -156,8 +156,8 @@ class SimulatedNetwork {
   void send(std::uint32_t index, const SharedMessage& message);
   void transmit(std::uint32_t index, const SharedMessage& message);
   void flush(NodeId from, NodeId to);
-  void update_sight(NodeId observer, NodeId other, Domain domain);
-  void update_sights_of(NodeId other);
+  void update_discovery(NodeId observer, NodeId other, Domain domain);
+  void update_discoveries_of(NodeId other);
   void note_names(NodeId observer, NodeId other, Domain domain);
 
   EventQueue* queue_;
@@ -168,7 +168,7 @@ class SimulatedNetwork {
   std::map<std::pair<NodeId, NodeId>, std::vector<std::uint32_t>> between_;
   std::vector<Cut> cuts_;
   std::vector<Disturbance> disturbances_;
-  std::uint64_t num_sights_{};
+  std::uint64_t num_discoveries_{};
 };
 
 }  // namespace hlc::closed_loop

@@ -46,7 +46,7 @@ struct ProcessPlace {
 };
 
 /// A process of a run: one machine, with the loop of every process (hlc_bridge/machine/loop.hpp).
-/// Instead of waiting it returns the time of its next turn.
+/// Instead of waiting it returns the time of its next iteration.
 class SimulatedProcess {
  public:
   virtual ~SimulatedProcess() = default;
@@ -57,13 +57,13 @@ class SimulatedProcess {
   /// Its clocks have been set.
   virtual void clocks_changed() = 0;
   /// Once through the loop.
-  virtual void turn() = 0;
-  /// True time of the next turn without new messages; at or before now: work is pending.
-  [[nodiscard]] virtual Nanoseconds next_turn() const = 0;
+  virtual void iterate() = 0;
+  /// True time of the next iteration without new messages; at or before now: work is pending.
+  [[nodiscard]] virtual Nanoseconds next_iteration() const = 0;
   [[nodiscard]] virtual std::optional<int> exit_code() const = 0;
 };
 
-inline constexpr Nanoseconds kNoTurn = std::numeric_limits<Nanoseconds>::max();
+inline constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::max();
 
 /// @tparam Host  the host of the machine's loop, and in addition: its type `Machine`; description()
 ///     of its topics; receive(topic, message, process)
@@ -92,7 +92,7 @@ class MachineProcess final : public SimulatedProcess {
   void presence_changed() override { loop_.presence_changed(); }
   void stop() override { loop_.post_urgent(machine::StopSignal{}); }
 
-  void turn() override {
+  void iterate() override {
     if (exit_code_) return;
     exit_code_ = loop_.iterate(
         host_, [this] { return clocks(); }, [](const auto& access) { return access(); });
@@ -110,14 +110,14 @@ class MachineProcess final : public SimulatedProcess {
     const Nanoseconds now = *place_.now;
     const WakeUp wake = loop_.wake_up();
     const auto when = [now](const SimulatedClock& clock, std::optional<Nanoseconds> local) {
-      return local ? clock.when(*local, now) : kNoTurn;
+      return local ? clock.when(*local, now) : kNever;
     };
     wake_at_ = std::min(when(*place_.wall_clock, wake.wall), when(*place_.run_clock, wake.run));
     read_mail_at_ = now + loop_.mail_delay().value_or(0);
   }
 
-  [[nodiscard]] Nanoseconds next_turn() const override {
-    if (exit_code_) return kNoTurn;
+  [[nodiscard]] Nanoseconds next_iteration() const override {
+    if (exit_code_) return kNever;
     if (loop_.has_work()) return *place_.now;
     return loop_.has_mail() ? std::min(wake_at_, read_mail_at_) : wake_at_;
   }

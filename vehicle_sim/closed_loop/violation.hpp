@@ -7,7 +7,7 @@
 
 namespace hlc::closed_loop {
 
-/// Something that must not be.
+/// A violated invariant.
 struct Violation {
   Nanoseconds at{};   ///< true time since the begin of the run
   std::string check;  ///< name of the rule

@@ -134,8 +134,7 @@ std::string VehicleMachine::parameter_fault() const {
 }
 
 /// A state or a command without a receiver is lost, and then a tick would wait for it. Among the
-/// lab's programs: any receiver.
-/// Among the lab's programs: of any participant.
+/// lab's programs: of any participant.
 bool VehicleMachine::is_connected() const {
   if (presence_.ready_readers == 0 || presence_.trigger_writers == 0) return false;
   if (options_.is_among_lab_programs) {

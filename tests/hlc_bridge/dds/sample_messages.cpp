@@ -477,10 +477,10 @@ AutomatonRequest sample(Random& random) {
                            .subgraph = {.labels = list(random, 4, words),
                                         .weights = list(random, 4, weight),
                                         .max_speed_mps = {},
-                                        .trims_on = list(random, 4, trim),
-                                        .trims_off = list(random, 4, trim),
-                                        .edges_on = list(random, 4, edge),
-                                        .edges_off = list(random, 4, edge)}};
+                                        .enable_trims = list(random, 4, trim),
+                                        .disable_trims = list(random, 4, trim),
+                                        .enable_edges = list(random, 4, edge),
+                                        .disable_edges = list(random, 4, edge)}};
   if (coin(random)) request.subgraph.max_speed_mps = number(random);
   return request;
 }

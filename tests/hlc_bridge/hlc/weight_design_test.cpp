@@ -44,9 +44,9 @@ const automaton::Subgraph& base() {
   return subgraph;
 }
 
-automaton::SubgraphSpec spec_for(const Weights& weights, std::vector<TrimId> trims_off = {}) {
-  return automaton::requested_spec(base(),
-                                   {.labels = {}, .weights = weights, .trims_off = trims_off});
+automaton::SubgraphSpec spec_for(const Weights& weights, std::vector<TrimId> disable_trims = {}) {
+  return automaton::requested_spec(
+      base(), {.labels = {}, .weights = weights, .disable_trims = disable_trims});
 }
 
 /// All but standstill and the two that are driven straight on or nearly so: quick to solve.
@@ -62,8 +62,8 @@ std::vector<TrimId> all_but_three() {
 class WeightDesignTest : public testing::Test {
  protected:
   std::shared_ptr<const automaton::UniversalAutomaton> automaton_for(
-      const Weights& weights, std::vector<TrimId> trims_off = {}) {
-    return design_.automaton_for(spec_for(weights, std::move(trims_off)), weights);
+      const Weights& weights, std::vector<TrimId> disable_trims = {}) {
+    return design_.automaton_for(spec_for(weights, std::move(disable_trims)), weights);
   }
 
   std::string refusal(const Weights& weights, const std::stop_token& stop = {}) {
@@ -216,7 +216,7 @@ TEST_F(WeightDesignTest, NamesTheEdgeThatHasNoManeuver) {
   automaton::SubgraphSpec spec = lab.subgraphs.front();
   spec.labels = {"J2 1"};
   spec.trims = {{0}, {1}, {11}};  // in a chain
-  spec.off = {};
+  spec.disabled_edges = {};
   WeightDesign design(automaton, [&lab] { return lab; });
   try {
     static_cast<void>(design.automaton_for(spec, {{"J2", 1.0}}));

@@ -58,10 +58,10 @@ TEST(SubgraphRequest, AnEmptyOneAsksForTheScenariosOwn) {
 TEST(SubgraphRequest, ChangesLabelsTrimsEdgesAndSpeed) {
   const auto subgraph = requested({.labels = {"J1"},
                                    .max_speed_mps = {},
-                                   .trims_on = {},
-                                   .trims_off = {trim(2), trim(12)},
-                                   .edges_on = {},
-                                   .edges_off = {{trim(6), trim(7)}}});
+                                   .enable_trims = {},
+                                   .disable_trims = {trim(2), trim(12)},
+                                   .enable_edges = {},
+                                   .disable_edges = {{trim(6), trim(7)}}});
   EXPECT_EQ(on(*subgraph).size(), 10U);
   EXPECT_FALSE(subgraph->is_enabled(trim(2)));
   EXPECT_FALSE(subgraph->is_enabled(trim(12)));
@@ -93,7 +93,7 @@ TEST(SubgraphRequest, ATrimThatComesBackStandsWhereItWas) {
   std::erase(without.trims, trim(7));
   const Subgraph smaller(base().shared_automaton(), without);
   const auto subgraph = requested_subgraph(
-      smaller, {.labels = {}, .max_speed_mps = {}, .trims_on = {trim(7)}}, kHorizonSteps);
+      smaller, {.labels = {}, .max_speed_mps = {}, .enable_trims = {trim(7)}}, kHorizonSteps);
   EXPECT_EQ(subgraph->spec().trims, base().spec().trims);
 }
 
@@ -105,24 +105,24 @@ TEST(SubgraphRequest, RefusesWhatCannotBeInOneLine) {
   EXPECT_THAT(refusal({.labels = {}, .max_speed_mps = std::nan("")}), HasSubstr("speed limit nan"));
   EXPECT_THAT(refusal({.labels = {}, .max_speed_mps = INFINITY}), HasSubstr("speed limit inf"));
   SubgraphRequest request;
-  request.trims_off = {trim(1)};
+  request.disable_trims = {trim(1)};
   EXPECT_THAT(refusal(request), HasSubstr("no trim of speed 0"));
-  request.trims_off = {trim(13)};
+  request.disable_trims = {trim(13)};
   EXPECT_THAT(refusal(request), HasSubstr("trim 13, must be in 1 ... 12"));
-  request.trims_off = {trim(3), trim(3)};
-  EXPECT_THAT(refusal(request), HasSubstr("trim 3 off: must be enabled"));
+  request.disable_trims = {trim(3), trim(3)};
+  EXPECT_THAT(refusal(request), HasSubstr("trim 3: must be enabled"));
   request = {};
-  request.trims_on = {trim(3)};
-  EXPECT_THAT(refusal(request), HasSubstr("trim 3 on: must be disabled"));
+  request.enable_trims = {trim(3)};
+  EXPECT_THAT(refusal(request), HasSubstr("trim 3: must be disabled"));
   request = {};
-  request.edges_on = {{trim(2), trim(3)}};
-  EXPECT_THAT(refusal(request), HasSubstr("edge 2 -> 3 on"));
+  request.enable_edges = {{trim(2), trim(3)}};
+  EXPECT_THAT(refusal(request), HasSubstr("edge 2 -> 3: must be disabled"));
   request = {};
-  request.edges_off = {{trim(1), trim(1)}};
+  request.disable_edges = {{trim(1), trim(1)}};
   EXPECT_THAT(refusal(request), HasSubstr("standing must be possible"));
   request = {};
   for (std::size_t number = 2; number <= 12; ++number) {
-    request.edges_off.push_back({trim(number), trim(1)});
+    request.disable_edges.push_back({trim(number), trim(1)});
   }
   EXPECT_THAT(refusal(request), HasSubstr("no way from trim"));
   request = {};
@@ -145,18 +145,20 @@ TEST(SubgraphRequest, RandomOnesAreRefusedOrCanBeDriven) {
     const char* const labels[] = {"J1", "J2", "J3"};
     if (draw(1) == 0) request.labels = {labels[draw(2)]};
     if (draw(2) == 0) request.max_speed_mps = 0.1 * static_cast<double>(draw(24));
-    for (std::size_t k = draw(3); k > 0; --k) request.trims_off.push_back({draw(12)});
-    for (std::size_t k = draw(3); k > 0; --k) request.edges_off.push_back({{draw(11)}, {draw(11)}});
+    for (std::size_t k = draw(3); k > 0; --k) request.disable_trims.push_back({draw(12)});
+    for (std::size_t k = draw(3); k > 0; --k)
+      request.disable_edges.push_back({{draw(11)}, {draw(11)}});
     SCOPED_TRACE(testing::Message() << "request " << i);
     try {
       const auto subgraph = requested(request);
       ++accepted;
       EXPECT_NO_THROW(check_driving(*subgraph, kHorizonSteps));
-      for (const TrimId one : request.trims_off) EXPECT_FALSE(subgraph->is_enabled(one));
+      for (const TrimId one : request.disable_trims) EXPECT_FALSE(subgraph->is_enabled(one));
       for (const TrimId from : subgraph->trims()) {
         for (const Edge& edge : subgraph->successors(from)) {
-          const bool is_disabled = std::ranges::find(request.edges_off, TrimPair{from, edge.to}) !=
-                                   request.edges_off.end();
+          const bool is_disabled =
+              std::ranges::find(request.disable_edges, TrimPair{from, edge.to}) !=
+              request.disable_edges.end();
           EXPECT_FALSE(is_disabled);
           EXPECT_TRUE(!request.max_speed_mps ||
                       top_speed_mps(*edge.maneuver) <= *request.max_speed_mps + 1e-6);

@@ -112,11 +112,11 @@ TEST(Subgraph, RefusesLabelsAndEdgesThatMakeNoSense) {
   wrong.labels = {"J2", "J2"};
   EXPECT_EQ(refusal(wrong), "subgraph 'B': label 'J2' is listed twice");
   wrong = spec("B");
-  wrong.off = {{{pi(1), pi(1)}, std::nullopt}};
+  wrong.disabled_edges = {{{pi(1), pi(1)}, std::nullopt}};
   EXPECT_EQ(refusal(wrong), "subgraph 'B': edge 1 -> 1 is disabled, but standing must be possible");
-  wrong.off = {{{pi(7), pi(1)}, std::nullopt},
-               {{pi(7), pi(6)}, std::nullopt},
-               {{pi(7), pi(8)}, std::nullopt}};
+  wrong.disabled_edges = {{{pi(7), pi(1)}, std::nullopt},
+                          {{pi(7), pi(6)}, std::nullopt},
+                          {{pi(7), pi(8)}, std::nullopt}};
   EXPECT_EQ(refusal(wrong), "subgraph 'B': no way from trim 7 to a trim of speed 0");
   wrong = spec("B");
   wrong.edges = {{{pi(3), pi(5)}, {"J2"}}};
@@ -164,10 +164,10 @@ TEST(Subgraph, CheckDrivingRefusesTrimsThatStandstillIsTooFarFromOrThatNothingLe
   SubgraphSpec spec{"B", {"J2"}, {}};
   for (std::size_t i = 0; i < 12; ++i) spec.trims.push_back({i});
   EXPECT_NO_THROW(check_driving(Subgraph(automaton, spec), 1));
-  spec.off = {{{pi(7), pi(1)}, {}}};  // two steps now
+  spec.disabled_edges = {{{pi(7), pi(1)}, {}}};  // two steps now
   EXPECT_NO_THROW(check_driving(Subgraph(automaton, spec), 2));
   EXPECT_THROW(check_driving(Subgraph(automaton, spec), 1), std::invalid_argument);
-  spec.off = {{{pi(1), pi(7)}, {}}, {{pi(6), pi(7)}, {}}, {{pi(8), pi(7)}, {}}};
+  spec.disabled_edges = {{{pi(1), pi(7)}, {}}, {{pi(6), pi(7)}, {}}, {{pi(8), pi(7)}, {}}};
   EXPECT_THROW(check_driving(Subgraph(automaton, spec), 8), std::invalid_argument);
 }
 
@@ -205,7 +205,8 @@ TEST(Subgraph, BetweenTwoTrimsThereIsOneEdgePerLabelInTheirOrder) {
 TEST(Subgraph, SingleEdgesHaveOtherLabelsOrAreOff) {
   SubgraphSpec spec = all_trims({"slow", "fast"});
   spec.edges = {{{pi(7), pi(8)}, {"fast"}}};
-  spec.off = {{{pi(6), pi(7)}, std::nullopt}, {{pi(7), pi(6)}, "slow"}, {{pi(9), pi(9)}, {}}};
+  spec.disabled_edges = {
+      {{pi(6), pi(7)}, std::nullopt}, {{pi(7), pi(6)}, "slow"}, {{pi(9), pi(9)}, {}}};
   const Subgraph subgraph(two_labels(), spec);
   EXPECT_EQ(labels_between(subgraph, 7, 8), Labels{"fast"});
   EXPECT_EQ(labels_between(subgraph, 8, 7), (Labels{"slow", "fast"}));
@@ -217,7 +218,7 @@ TEST(Subgraph, SingleEdgesHaveOtherLabelsOrAreOff) {
 TEST(Subgraph, TheAutomatonNeedNotHoldAnEdgeThatIsOff) {
   SubgraphSpec spec = paper_configuration().subgraphs.front();
   spec.trims = {pi(1), pi(3), pi(5)};
-  spec.off = {{{pi(3), pi(5)}, std::nullopt}, {{pi(5), pi(3)}, std::nullopt}};
+  spec.disabled_edges = {{{pi(3), pi(5)}, std::nullopt}, {{pi(5), pi(3)}, std::nullopt}};
   EXPECT_EQ(refusal(spec), "accepted");
 }
 
@@ -273,7 +274,8 @@ TEST(Subgraph, ExitEdgesTakeTheSubgraphsLabelsFirstAndAnyLabelIfThereAreNone) {
   slow.trims = {pi(1), pi(2)};
   const Subgraph all_held(two_labels(), slow);
   EXPECT_EQ(labels_between(all_held, 7, 1), Labels{"slow"});
-  slow.off = {{{pi(7), pi(1)}, "slow"}, {{pi(7), pi(2)}, "slow"}, {{pi(7), pi(2)}, "fast"}};
+  slow.disabled_edges = {
+      {{pi(7), pi(1)}, "slow"}, {{pi(7), pi(2)}, "slow"}, {{pi(7), pi(2)}, "fast"}};
   const Subgraph some_off(two_labels(), slow);
   EXPECT_EQ(labels_between(some_off, 7, 1), Labels{"fast"});
   EXPECT_EQ(labels_between(some_off, 7, 2), Labels{});
@@ -319,9 +321,9 @@ TEST(Subgraph, ATrimThatIsOffMayBeSeveralExitsAway) {
 TEST(Subgraph, ATrimThatIsOffWithoutAWayOutIsNoStart) {
   SubgraphSpec spec = all_trims({"slow"});
   spec.trims = {pi(1)};
-  spec.off = {{{pi(7), pi(1)}, std::nullopt}};
+  spec.disabled_edges = {{{pi(7), pi(1)}, std::nullopt}};
   for (std::size_t number = 2; number <= 12; ++number) {
-    spec.off.push_back({{pi(7), pi(number)}, std::nullopt});
+    spec.disabled_edges.push_back({{pi(7), pi(number)}, std::nullopt});
   }
   const Subgraph subgraph(two_labels(), spec);
   EXPECT_TRUE(subgraph.successors(pi(7)).empty());

@@ -43,7 +43,7 @@ std::shared_ptr<const UniversalAutomaton> random_automaton(Random& random) {
   return automaton;
 }
 
-/// A spec that may or may not make sense: what is not held is off.
+/// A spec that may or may not make sense: what is not held is disabled.
 SubgraphSpec random_spec(const UniversalAutomaton& automaton, Random& random) {
   SubgraphSpec spec{.name = "random", .labels = {}, .trims = {}};
   std::vector<std::string> labels{"slow", "mid", "fast"};
@@ -66,7 +66,7 @@ SubgraphSpec random_spec(const UniversalAutomaton& automaton, Random& random) {
         const bool is_held = automaton.find({from}, {to}, label) != nullptr;
         const bool may_go = !is_own || !automaton.trims[from].is_equilibrium();
         if (!is_held || (may_go && toss(random, 0.05))) {
-          spec.off.push_back({{{from}, {to}}, label});
+          spec.disabled_edges.push_back({{{from}, {to}}, label});
         }
       }
     }
@@ -75,7 +75,7 @@ SubgraphSpec random_spec(const UniversalAutomaton& automaton, Random& random) {
     const TrimId shut{pick(random, automaton.trims.size())};
     std::erase(spec.trims, shut);
     for (std::size_t to = 0; to < automaton.trims.size(); ++to) {
-      if (to != shut.index) spec.off.push_back({{shut, {to}}, std::nullopt});
+      if (to != shut.index) spec.disabled_edges.push_back({{shut, {to}}, std::nullopt});
     }
   }
   return spec;
@@ -95,12 +95,13 @@ std::vector<std::unique_ptr<const Subgraph>> random_subgraphs(
 }
 
 bool is_disabled(const SubgraphSpec& spec, const Maneuver& m) {
-  return std::ranges::any_of(spec.off, [&](const DisabledEdges& off) {
-    return off.edge == TrimPair{m.from, m.to} && (!off.label || *off.label == m.label);
+  return std::ranges::any_of(spec.disabled_edges, [&](const DisabledEdges& disabled) {
+    return disabled.edge == TrimPair{m.from, m.to} &&
+           (!disabled.label || *disabled.label == m.label);
   });
 }
 
-/// Fewest held edges to a trim that is on, found by relaxation over all maneuvers.
+/// Fewest held edges to an enabled trim, found by relaxation over all maneuvers.
 std::vector<std::size_t> exit_distances(const Subgraph& subgraph) {
   const UniversalAutomaton& automaton = subgraph.automaton();
   std::vector<std::size_t> distance(automaton.trims.size(), kMaxDistance);

@@ -85,7 +85,7 @@ TEST(Controller, ThereIsNoIncumbentWhereThePlanIsMovedOntoTheVehicle) {
   EXPECT_TRUE(one->problems().front().incumbent.empty());
 }
 
-// Nor after a switch, when the vehicle may drive with a trim that is off now.
+// Nor after a switch, when the vehicle may drive with a trim that is disabled now.
 TEST(Controller, WarmingUpChangesNothing) {
   const auto cold = controller(1);
   const auto warm = controller(1);

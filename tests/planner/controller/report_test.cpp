@@ -132,7 +132,7 @@ road::Corridor lane(double half_width_m) {
   return {std::move(pieces), 0.0};
 }
 
-// The only way off the trim that is off now is a bend that leaves the lane.
+// The only way off the disabled trim is a bend that leaves the lane.
 TEST_F(ReportTest, NamesTheFormerSubgraphAsLongAsPlansAreFoundOnThat) {
   automaton::SubgraphSpec straight = automaton::paper_configuration().subgraphs.front();
   straight.name = "straight";
@@ -140,7 +140,7 @@ TEST_F(ReportTest, NamesTheFormerSubgraphAsLongAsPlansAreFoundOnThat) {
   automaton::SubgraphSpec bend = automaton::paper_configuration().subgraphs.front();
   bend.name = "bend";
   bend.trims = {automaton::pi(1), automaton::pi(8)};
-  bend.off = {{{automaton::pi(7), automaton::pi(1)}, std::nullopt}};
+  bend.disabled_edges = {{{automaton::pi(7), automaton::pi(1)}, std::nullopt}};
   const double half_width_m = 0.5 * automaton::paper_automaton()->vehicle.footprint.width_m + 0.005;
   start(std::make_shared<const automaton::Subgraph>(automaton::paper_automaton(), straight),
         lane(half_width_m));

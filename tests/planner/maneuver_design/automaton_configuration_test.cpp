@@ -342,7 +342,7 @@ TEST(AutomatonConfiguration, ReadsAllThatASubgraphCanSay) {
     trims: [1, 3, 2]
     rule: reachable
     max_speed_mps: 0.9
-    off: [{from: 2, to: 3}, {from: 3, to: 2, label: J3}]
+    disabled_edges: [{from: 2, to: 3}, {from: 3, to: 2, label: J3}]
     edges: [{from: 1, to: 2, labels: [J2]}]
 edges: all
 horizon_steps: 4
@@ -352,13 +352,14 @@ horizon_steps: 4
   EXPECT_EQ(c.horizon_steps, 4U);
   ASSERT_EQ(c.subgraphs.size(), 2U);
   const automaton::SubgraphSpec& s = c.subgraphs[1];
-  EXPECT_EQ(s, (automaton::SubgraphSpec{.name = "all of it",
-                                        .labels = {"J3", "J2"},
-                                        .trims = {{0}, {2}, {1}},
-                                        .rule = automaton::EdgeRule::kReachable,
-                                        .max_speed_mps = 0.9,
-                                        .off = {{{{1}, {2}}, std::nullopt}, {{{2}, {1}}, "J3"}},
-                                        .edges = {{{{0}, {1}}, {"J2"}}}}));
+  EXPECT_EQ(s, (automaton::SubgraphSpec{
+                   .name = "all of it",
+                   .labels = {"J3", "J2"},
+                   .trims = {{0}, {2}, {1}},
+                   .rule = automaton::EdgeRule::kReachable,
+                   .max_speed_mps = 0.9,
+                   .disabled_edges = {{{{1}, {2}}, std::nullopt}, {{{2}, {1}}, "J3"}},
+                   .edges = {{{{0}, {1}}, {"J2"}}}}));
   // Printed, it reads back.
   std::string again = text.substr(0, text.find("subgraphs:")) + "subgraphs:\n";
   for (const automaton::SubgraphSpec& one : c.subgraphs)
@@ -367,11 +368,11 @@ horizon_steps: 4
 }
 
 TEST(AutomatonConfiguration, RefusesTrimsThatDoNotHangTogetherOrCannotStopWithinTheHorizon) {
-  const std::string off = "trims: all, off: [{from: 1, to: 2}]}";
-  EXPECT_EQ(message("trims: all}", off),
+  const std::string disabled = "trims: all, disabled_edges: [{from: 1, to: 2}]}";
+  EXPECT_EQ(message("trims: all}", disabled),
             "FILE:14: subgraphs[1].trims = all, must be connected trims: no edges lead "
             "from trim 1 to trim 2");
-  EXPECT_EQ(message("trims: all}", "trims: all, off: [{from: 2, to: 1}]}"),
+  EXPECT_EQ(message("trims: all}", "trims: all, disabled_edges: [{from: 2, to: 1}]}"),
             "FILE:14: subgraphs[1].trims = all, must be trims that reach a trim of speed 0 within "
             "the horizon of 8 steps; trim 2 never reaches it");
   // Ten trims of rising speed, each within one step of its neighbours alone.
@@ -407,14 +408,15 @@ TEST(AutomatonConfiguration, RefusesBadEdgesOfSubgraphs) {
             "FILE:14: subgraphs[1].rule = ring, must be one of chain, reachable");
   EXPECT_EQ(refusal("max_speed_mps: -1"),
             "FILE:14: subgraphs[1].max_speed_mps = -1, must be a number >= 0");
-  EXPECT_EQ(refusal("off: [{from: 1, to: 3}]"),
-            "FILE:14: subgraphs[1].off[1].to = 3, must be a whole number >= 1 and <= 2");
-  EXPECT_EQ(refusal("off: [{from: 1, to: 1}]"),
-            "FILE:14: subgraphs[1].off[1].to = 1, must be an edge other than standing, which must "
+  EXPECT_EQ(refusal("disabled_edges: [{from: 1, to: 3}]"),
+            "FILE:14: subgraphs[1].disabled_edges[1].to = 3, must be a whole number >= 1 and <= 2");
+  EXPECT_EQ(refusal("disabled_edges: [{from: 1, to: 1}]"),
+            "FILE:14: subgraphs[1].disabled_edges[1].to = 1, must be an edge other than standing, "
+            "which must "
             "be possible");
-  EXPECT_EQ(refusal("off: [{from: 1, to: 2, label: J1}]"),
-            "FILE:14: subgraphs[1].off[1].label = J1, must be J2");
-  // Out of a trim that is on, only what the rule gives can be off ...
+  EXPECT_EQ(refusal("disabled_edges: [{from: 1, to: 2, label: J1}]"),
+            "FILE:14: subgraphs[1].disabled_edges[1].label = J1, must be J2");
+  // Out of an enabled trim, only what the rule gives can be disabled ...
   std::string text = kGood;
   text.replace(text.find("[J2]"), 4, "[J2, J3]");
   text.replace(text.find("acceleration_mps2: 12"), 21, "acceleration_mps2: 4");
@@ -430,20 +432,25 @@ TEST(AutomatonConfiguration, RefusesBadEdgesOfSubgraphs) {
     return "no error";
   };
   const std::string all = "rule: reachable, trims: all, ";
-  EXPECT_EQ(message_of(all + "off: [{from: 1, to: 3}]"),
-            "FILE:15: subgraphs[1].off[1].to = 3, must be a trim that the rule connects with "
-            "`from`");
-  EXPECT_EQ(message_of("trims: [1, 2], off: [{from: 2, to: 3}]"),
-            "FILE:15: subgraphs[1].off[1].to = 3, must be a trim that the rule connects with "
-            "`from`");
-  EXPECT_EQ(message_of("trims: all, off: [{from: 1, to: 2, label: J3}]"),
-            "FILE:15: subgraphs[1].off[1].label = J3, must be J2");
-  EXPECT_EQ(message_of("trims: all, off: [{from: 1, to: 2, label: J3}], edges: [{from: 1, to: 2, "
-                       "labels: [J2, J3]}]"),
+  EXPECT_EQ(
+      message_of(all + "disabled_edges: [{from: 1, to: 3}]"),
+      "FILE:15: subgraphs[1].disabled_edges[1].to = 3, must be a trim that the rule connects with "
+      "`from`");
+  EXPECT_EQ(
+      message_of("trims: [1, 2], disabled_edges: [{from: 2, to: 3}]"),
+      "FILE:15: subgraphs[1].disabled_edges[1].to = 3, must be a trim that the rule connects with "
+      "`from`");
+  EXPECT_EQ(message_of("trims: all, disabled_edges: [{from: 1, to: 2, label: J3}]"),
+            "FILE:15: subgraphs[1].disabled_edges[1].label = J3, must be J2");
+  EXPECT_EQ(
+      message_of(
+          "trims: all, disabled_edges: [{from: 1, to: 2, label: J3}], edges: [{from: 1, to: 2, "
+          "labels: [J2, J3]}]"),
+      "no error");
+  // ... but any edge out of a disabled one, which may be left by it.
+  EXPECT_EQ(message_of("trims: [1, 2], disabled_edges: [{from: 3, to: 1, label: J3}]"), "no error");
+  EXPECT_EQ(message_of(all + "max_speed_mps: 1, disabled_edges: [{from: 3, to: 1, label: J3}]"),
             "no error");
-  // ... but any edge out of one that is off, which may be left by it.
-  EXPECT_EQ(message_of("trims: [1, 2], off: [{from: 3, to: 1, label: J3}]"), "no error");
-  EXPECT_EQ(message_of(all + "max_speed_mps: 1, off: [{from: 3, to: 1, label: J3}]"), "no error");
   EXPECT_EQ(refusal("edges: [{from: 2, to: 2, labels: [J2]}]"),
             "FILE:14: subgraphs[1].edges[1].to = 2, must be a trim that the rule connects with "
             "`from`");

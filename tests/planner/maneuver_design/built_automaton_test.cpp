@@ -80,7 +80,7 @@ step_s: 0.2
 criteria: [J2, {name: "half \"and\" half", weights: {J1: 1, J2: 1}, normalised: true}]
 subgraphs:
   - {name: B, label: J2, trims: all}
-  - {name: both, labels: [J2, "half \"and\" half"], trims: [1, 3, 2], max_speed_mps: 2.5, off: [{from: 2, to: 3, label: J2}]}
+  - {name: both, labels: [J2, "half \"and\" half"], trims: [1, 3, 2], max_speed_mps: 2.5, disabled_edges: [{from: 2, to: 3, label: J2}]}
 )";
   const test::TemporaryFolder folder_;
   fs::path path_{folder_ / "automaton.yaml"};

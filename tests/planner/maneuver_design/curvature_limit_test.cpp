@@ -56,7 +56,7 @@ TEST(CurvatureLimit, IsKeptByEveryManeuverOfTheLabsAutomatonAndBindsInSome) {
 
 TEST(CurvatureLimit, NamesWhatItDoesNotAllow) {
   AutomatonConfiguration configuration = lab();
-  configuration.subgraphs.front().off.clear();
+  configuration.subgraphs.front().disabled_edges.clear();
   try {
     static_cast<void>(build_automaton(configuration));
     FAIL() << "from standstill into the tightest turn the way is too short";

@@ -46,7 +46,7 @@ TEST_F(PreparedChoiceTest, TheLowerOfTwoLimitsHolds) {
 }
 
 TEST_F(PreparedChoiceTest, ALimitKeepsWhatElseWasAskedFor) {
-  const SubgraphRequest request{.labels = {"slow"}, .trims_off = {{11}}};
+  const SubgraphRequest request{.labels = {"slow"}, .disable_trims = {{11}}};
   const automaton::SubgraphSpec limited = choice(request).under(0.6).subgraph->spec();
   EXPECT_EQ(limited.labels, request.labels);
   EXPECT_THAT(limited.trims, testing::Not(testing::Contains(TrimId{11})));

@@ -123,7 +123,7 @@ TEST_F(SubgraphSelectorTest, AZonesLimitIsLaidOnWhateverIsAskedFor) {
   use({.zones = {zone(-1.0, 100.0, 0.5)},
        .policies = {TimePolicySettings{.changes = {{0.0, kFastLabel}}}}});
   EXPECT_EQ(drive(), "slow, at most 0.5 m/s") << "with fast maneuvers it cannot be held";
-  ask({.trims_off = {{11}}});
+  ask({.disable_trims = {{11}}});
   EXPECT_EQ(drive(), "slow, at most 0.5 m/s, without trims 12");
   ask({.max_speed_mps = 0.4});
   EXPECT_EQ(drive(), "slow, at most 0.4 m/s") << "never lifted by a zone";

@@ -43,7 +43,7 @@ policies:
     min_stay_s: 0.4
     rules:
       - time: [{from_s: 0, request: {labels: [slow]}}, {from_s: 2.5, request: {}}]
-      - battery: {below_v: 7.0, back_above_v: 7.4, request: {max_speed_mps: 0.6, trims_off: [12]}}
+      - battery: {below_v: 7.0, back_above_v: 7.4, request: {max_speed_mps: 0.6, disable_trims: [12]}}
       - situation: {open_road: {labels: [slow]}, conflict: {labels: [slow, fast]}, after_conflict_s: 0}
       - look_ahead: {candidates: [{labels: [slow]}, {}], steps: 5, least_gain: 0.1, max_expansions: 4000}
 )");
@@ -61,7 +61,7 @@ policies:
                    policy::BatteryPolicySettings{
                        .below_v = 7.0,
                        .back_above_v = 7.4,
-                       .request = {.max_speed_mps = 0.6, .trims_off = {{11}}}},
+                       .request = {.max_speed_mps = 0.6, .disable_trims = {{11}}}},
                    policy::SituationPolicySettings{.open_road = slow,
                                                    .conflict = {.labels = {"slow", "fast"}},
                                                    .after_conflict_s = 0.0},
@@ -90,7 +90,7 @@ TEST(PolicyFile, WhatCannotBeIsRefusedInOneLineWithPlaceAndWhatIsAllowed) {
       {"a: {rules: [{time: [{from_s: 2, request: {labels: [J9]}}]}]}",
        "policies.a = (a map): label 'J9', must be one of fast, slow"},
       {"a: {rules: [{time: [{from_s: 2, request: {label: J9}}]}]}", "label"},
-      {"a: {rules: [{time: [{from_s: 2, request: {trims_off: [13]}}]}]}",
+      {"a: {rules: [{time: [{from_s: 2, request: {disable_trims: [13]}}]}]}",
        "trim 13, must be in 1 ... 12"},
       {"a: {rules: [{battery: {below_v: 7, back_above_v: 6, request: {}}}]}", "back_above_v = 6"},
       {"a: {rules: [{look_ahead: {candidates: [{}], max_expansions: 10}}]}", "2 ... 100 requests"},
@@ -144,7 +144,7 @@ TEST(PolicyFile, OnAnotherSubgraphOnlyThePolicyThatIsDrivenMustFit) {
   const test::TemporaryFolder own;
   test::put(own / "s.yaml", text + R"(
 policies:
-  without_3: {rules: [{time: [{from_s: 0, request: {trims_off: [3]}}]}]}
+  without_3: {rules: [{time: [{from_s: 0, request: {disable_trims: [3]}}]}]}
   slow: {rules: [{time: [{from_s: 0, request: {max_speed_mps: 0.7}}]}]}
 )");
   const auto read_d = [&](const std::string& policy) {

@@ -30,10 +30,10 @@ SubgraphRequest random_request(Random& random) {
     request.max_speed_mps = 0.4 + 0.1 * static_cast<double>(draw(random, 16));
   }
   for (std::size_t k = draw(random, 2); k > 0; --k) {
-    request.trims_off.push_back({1 + draw(random, 10)});
+    request.disable_trims.push_back({1 + draw(random, 10)});
   }
   for (std::size_t k = draw(random, 2); k > 0; --k) {
-    request.edges_off.push_back({{draw(random, 11)}, {draw(random, 11)}});
+    request.disable_edges.push_back({{draw(random, 11)}, {draw(random, 11)}});
   }
   return request;
 }

@@ -34,7 +34,7 @@ class Switching : public testing::Test {
     stuck.trims = {{0}};
     for (std::size_t from = 1; from < 12; ++from) {
       for (std::size_t to = 0; to < 12; ++to) {
-        if (from != to) stuck.off.push_back({{{from}, {to}}, std::nullopt});
+        if (from != to) stuck.disabled_edges.push_back({{{from}, {to}}, std::nullopt});
       }
     }
     specs_.push_back(stuck);
@@ -132,7 +132,7 @@ TEST_F(Switching, ToASpeedLimitSlowsDownAtOnce) {
   ASSERT_GT(automaton_->trims[step().planned_trim.index].speed_mps, 0.6);
   switch_to("slow");
   static_cast<void>(step());  // planned from the next step on
-  static_cast<void>(step());  // leaves the trim that is off
+  static_cast<void>(step());  // leaves the disabled trim
   for (int k = 0; k < 20; ++k) {
     const coordination::Report report = step();
     EXPECT_EQ(report.status, coordination::StepStatus::kPlanned);

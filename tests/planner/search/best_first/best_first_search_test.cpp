@@ -128,7 +128,7 @@ TEST(BestFirstSearch, OfTwoLabelsTheBetterIsTakenInEachStep) {
   EXPECT_GE(better, problems / 10);
 }
 
-// From a trim that is off, plans leave along its exit edges: the same as trying every path.
+// From a disabled trim, plans leave along its exit edges: the same as trying every path.
 TEST(BestFirstSearch, FromATrimThatIsOffItAgreesWithTryingEveryPath) {
   const auto automaton = test::make_test_automaton(test::paper_trims(), {kSlow, kFast});
   automaton::SubgraphSpec spec{.name = "D", .labels = {"slow"}, .trims = {}};
@@ -157,7 +157,7 @@ TEST(BestFirstSearch, FromATrimWithoutAWayOutThereIsNoPath) {
   const auto automaton = test::make_test_automaton(test::paper_trims(), {kSlow});
   automaton::SubgraphSpec spec{.name = "stand", .labels = {"slow"}, .trims = {{0}}};
   for (std::size_t to = 0; to < 12; ++to) {
-    if (to != 6) spec.off.push_back({{{6}, {to}}, std::nullopt});
+    if (to != 6) spec.disabled_edges.push_back({{{6}, {to}}, std::nullopt});
   }
   Searcher searcher(automaton::Subgraph(automaton, spec));
   EXPECT_EQ(searcher.search(straight_problem(8)).reason, NoPath::kInfeasible);

@@ -15,24 +15,24 @@
 
 namespace hlc::closed_loop {
 
-/// A line for whoever looks on. @param at  true time since the begin of the run
+/// Receives a line for each event of a run. @param at  true time since the begin of the run
 using Trace = std::function<void(Nanoseconds at, const std::string& line)>;
 
 struct FaultRunResult {
   Violations violations;
   std::uint64_t hash{};          ///< of all that was reported, driven and logged, and when
   std::uint64_t car_steps{};     ///< control steps that were reported
-  std::uint64_t planned{};       ///< of them with a new plan
-  std::uint64_t unreachable{};   ///< of them of a vehicle out of reach (DrivenPlans)
+  std::uint64_t planned{};       ///< car-steps with a new plan
+  std::uint64_t unreachable{};   ///< car-steps of vehicles out of reach (DrivenPlans)
   double smallest_distance_m{};  ///< between driven footprints
 };
 
-/// Everything that is judged and hashed while a run goes on.
-class RunJudges final : public RunObserver {
+/// Everything that is checked and hashed while a run goes on.
+class RunMonitor final : public RunObserver {
  public:
-  RunJudges(const scenario::Scenario& scenario, Nanoseconds calm_from, const Trace& trace);
+  RunMonitor(const scenario::Scenario& scenario, Nanoseconds calm_from, const Trace& trace);
 
-  /// Whose time and names are meant; before anything happens.
+  /// The lab that it observes; before the first event.
   void attach(SimulatedLab& lab) { lab_ = &lab; }
 
   void on_log(NodeId node, const machine::LogLine& line) override;
@@ -47,18 +47,18 @@ class RunJudges final : public RunObserver {
   void on_report(const ReportRecord& record, const coordination::Plan* in_force) override;
   void on_command(const TrajectoryCommand& command) override;
   void on_received(const TrajectoryCommand& command) override { driven_.received(command); }
-  /// From now on it brakes at once, wherever it is and whoever is near: it is no longer judged.
+  /// From now on it brakes at once, wherever it is and whoever is near: it is no longer checked.
   void on_stop_symbol(std::uint8_t vehicle) override { stopped_.insert(vehicle); }
 
-  void killed(const Seat& seat);
+  void killed(const ProcessSlot& slot);
   /// It has been killed or suspended.
-  void held_up(const Seat& seat);
+  void held_up(const ProcessSlot& slot);
   /// It has begun or ended.
-  void changed(const Seat& seat);
+  void changed(const ProcessSlot& slot);
   void report_violation(const std::string& text);
-  void judge_ticks();
-  void judge_planning(const std::vector<std::uint8_t>& able) {
-    planning_.judge(able, lab_->now(), result_.violations);
+  void check_ticks();
+  void check_planning(const std::vector<std::uint8_t>& able) {
+    planning_.check(able, lab_->now(), result_.violations);
   }
 
   /// Somebody has planned.

@@ -1,4 +1,4 @@
-#include "vehicle_sim/closed_loop/run_judges.hpp"
+#include "vehicle_sim/closed_loop/run_monitor.hpp"
 
 #include <array>
 #include <bit>
@@ -44,7 +44,8 @@ std::string follows_line(std::uint8_t vehicle, Nanoseconds create, Nanoseconds p
 
 }  // namespace
 
-RunJudges::RunJudges(const scenario::Scenario& scenario, Nanoseconds calm_from, const Trace& trace)
+RunMonitor::RunMonitor(const scenario::Scenario& scenario, Nanoseconds calm_from,
+                       const Trace& trace)
     : period_(period_of(scenario)),
       footprints_(automaton_of(scenario).vehicle.footprint, starts_of(scenario)),
       plans_(scenario.horizon_steps),
@@ -53,15 +54,15 @@ RunJudges::RunJudges(const scenario::Scenario& scenario, Nanoseconds calm_from, 
       planning_(calm_from),
       trace_(trace) {}
 
-void RunJudges::on_log(NodeId node, const machine::LogLine& line) {
+void RunMonitor::on_log(NodeId node, const machine::LogLine& line) {
   const std::string& name = lab_->name(node);
   reasons_.log(name, line, lab_->now());
   for (const char letter : line.text) add_to_hash(static_cast<unsigned char>(letter));
   trace([&] { return name + ": " + line.text; });
 }
 
-void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time,
-                          const result::DrivenSample& sample) {
+void RunMonitor::on_driven(std::uint8_t vehicle, Nanoseconds time,
+                           const result::DrivenSample& sample) {
   const Nanoseconds number = (time + kVehiclePeriod / 2) / kVehiclePeriod;
   const Nanoseconds tick = number * kVehiclePeriod;
   const VehicleId id{vehicle};
@@ -72,7 +73,7 @@ void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time,
   if (!stopped_.contains(vehicle)) {
     driven_.driven(id, tick, sample.command_create, result_.violations);
     plans_.received(id, driven_.has_plan_in_force(id));
-    if (driven_.is_out_of_reach(id, tick)) announced_.forgive(id, tick);
+    if (driven_.is_out_of_reach(id, tick)) announced_.exempt(id, tick);
     announced_.driven(id, tick, sample.pose, sample.speed_mps, result_.violations);
   }
   footprints_.driven(vehicle, number, sample.pose,
@@ -86,13 +87,13 @@ void RunJudges::on_driven(std::uint8_t vehicle, Nanoseconds time,
   add_to_hash(sample.command_create);
 }
 
-void RunJudges::on_prediction(const coordination::Prediction& prediction) {
+void RunMonitor::on_prediction(const coordination::Prediction& prediction) {
   plans_.predicted(prediction);
   driven_.predicted(prediction);
   announced_.predicted(prediction);
 }
 
-void RunJudges::on_report(const ReportRecord& record, const coordination::Plan* in_force) {
+void RunMonitor::on_report(const ReportRecord& record, const coordination::Plan* in_force) {
   const coordination::Report& report = record.report;
   ++result_.car_steps;
   if (report.status == coordination::StepStatus::kPlanned) ++result_.planned;
@@ -107,66 +108,66 @@ void RunJudges::on_report(const ReportRecord& record, const coordination::Plan* 
   trace([&] { return report_line(report); });
 }
 
-void RunJudges::on_command(const TrajectoryCommand& command) {
+void RunMonitor::on_command(const TrajectoryCommand& command) {
   driven_.commanded(command, lab_->true_time());
   add_to_hash(command.create_stamp);
 }
 
-void RunJudges::held_up(const Seat& seat) {
-  if (seat.key.role != Role::kController) return;
-  driven_.controller_stopped(VehicleId{seat.key.vehicle}, lab_->true_time());
+void RunMonitor::held_up(const ProcessSlot& slot) {
+  if (slot.key.role != Role::kController) return;
+  driven_.controller_stopped(VehicleId{slot.key.vehicle}, lab_->true_time());
 }
 
-void RunJudges::killed(const Seat& seat) {
-  if (seat.key.role != Role::kVehicle || seat.process) return;
-  footprints_.died(seat.key.vehicle, DrivenPlans::kAfterwards / kVehiclePeriod);
-  const Nanoseconds tick = last_[seat.key.vehicle].tick;
-  driven_.died({seat.key.vehicle}, tick);
-  announced_.forgive({seat.key.vehicle}, tick);
+void RunMonitor::killed(const ProcessSlot& slot) {
+  if (slot.key.role != Role::kVehicle || slot.process) return;
+  footprints_.died(slot.key.vehicle, DrivenPlans::kAfterwards / kVehiclePeriod);
+  const Nanoseconds tick = last_[slot.key.vehicle].tick;
+  driven_.died({slot.key.vehicle}, tick);
+  announced_.exempt({slot.key.vehicle}, tick);
 }
 
-void RunJudges::changed(const Seat& seat) {
-  if (!seat.exit_code) {
-    reasons_.started(seat.name);
-    if (seat.key.role == Role::kVehicle) came_back(seat.key.vehicle);
-    return trace([&] { return seat.name + " starts"; });
+void RunMonitor::changed(const ProcessSlot& slot) {
+  if (!slot.exit_code) {
+    reasons_.started(slot.name);
+    if (slot.key.role == Role::kVehicle) came_back(slot.key.vehicle);
+    return trace([&] { return slot.name + " starts"; });
   }
-  trace([&] { return seat.name + " ends with code " + std::to_string(*seat.exit_code); });
-  held_up(seat);
-  reasons_.ended(seat.name, *seat.exit_code, lab_->now(), result_.violations);
-  if (seat.key.role == Role::kVehicle) footprints_.ended(seat.key.vehicle);
-  add_to_hash(static_cast<std::uint64_t>(*seat.exit_code));
+  trace([&] { return slot.name + " ends with code " + std::to_string(*slot.exit_code); });
+  held_up(slot);
+  reasons_.ended(slot.name, *slot.exit_code, lab_->now(), result_.violations);
+  if (slot.key.role == Role::kVehicle) footprints_.ended(slot.key.vehicle);
+  add_to_hash(static_cast<std::uint64_t>(*slot.exit_code));
 }
 
 /// It stands where it died, and its controller may not know that.
-void RunJudges::came_back(std::uint8_t vehicle) {
+void RunMonitor::came_back(std::uint8_t vehicle) {
   footprints_.came_back(vehicle);
-  announced_.forgive(VehicleId{vehicle}, lab_->true_time());
+  announced_.exempt(VehicleId{vehicle}, lab_->true_time());
 }
 
-void RunJudges::report_violation(const std::string& text) {
+void RunMonitor::report_violation(const std::string& text) {
   if (!std::exchange(has_violation_, true)) {
     result_.violations.push_back({.at = lab_->now(), .check = "waits", .text = text});
   }
 }
 
-void RunJudges::judge_ticks() {
-  footprints_.judge(lab_->now(), result_.violations);
-  reasons_.judge(lab_->now(), result_.violations);
+void RunMonitor::check_ticks() {
+  footprints_.check(lab_->now(), result_.violations);
+  reasons_.check(lab_->now(), result_.violations);
 }
 
-std::optional<Pose> RunJudges::pose_of(std::uint8_t vehicle) const {
+std::optional<Pose> RunMonitor::pose_of(std::uint8_t vehicle) const {
   const auto last = last_.find(vehicle);
   return last == last_.end() ? std::nullopt : std::optional(last->second.pose);
 }
 
-FaultRunResult RunJudges::result() {
-  judge_ticks();
+FaultRunResult RunMonitor::result() {
+  check_ticks();
   result_.smallest_distance_m = footprints_.smallest_distance_m();
   return std::move(result_);
 }
 
-void RunJudges::add_to_hash(std::uint64_t value) {
+void RunMonitor::add_to_hash(std::uint64_t value) {
   result_.hash = mixed(result_.hash ^ value, lab_->now());
 }
 
