@@ -40,6 +40,12 @@ class ObservedRun final : private RunObserver {
 
   /// What an exact clock shows: vehicles and controllers count by it in real time.
   [[nodiscard]] Nanoseconds now() const { return lab_.true_time(); }
+  /// Whole commands of a step, with their copies, have been sent and received, and no others. A
+  /// death between the two leaves a car without the rest of its plan.
+  [[nodiscard]] bool is_between_commands() const {
+    constexpr Nanoseconds kStep = kNanosecondsPerSecond / 5;
+    return now() % kStep > kStep / 2;
+  }
   /// The newest tick of the vehicles.
   [[nodiscard]] Nanoseconds tick() const { return tick_; }
 

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <ostream>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
@@ -29,11 +31,9 @@ class FaultyRun {
 
   [[nodiscard]] bool drives_near_another(VehicleId victim) {
     records_.victim = victim;
-    // Not between a command and its copy: a death there leaves a car without the rest of the plan.
     return run.comes_to(
         [&] {
-          return run.now() % kStep_ns > kStep_ns / 2 &&
-                 test::drives_near_another(run.reports(), victim) &&
+          return run.is_between_commands() && test::drives_near_another(run.reports(), victim) &&
                  test::is_newest_sent_whole(run.commands(), victim.value);
         },
         kPatience);
@@ -170,7 +170,14 @@ TEST(LastingFault, OfAVehicleHurtsNobodyAndIsNamed) {
 
 TEST(LastingFault, OfTheLabControlLetsAllStandBeforeTheyLeave) {
   FaultyRun one("paper_three_cars", Transport::kLoopback, 1);
-  ASSERT_TRUE(one.drives_near_another({2}));
+  ASSERT_TRUE(one.run.comes_to(
+      [&] {
+        return one.run.drives().size() == 3 &&
+               std::ranges::all_of(one.run.drives(), [](const auto& drive) {
+                 return drive.second.back().speed_mps > 0.5;
+               });
+      },
+      kPatience));
   one.strike(kLabControlName, true);
   EXPECT_TRUE(one.run.comes_to([&] { return one.run.have_all_ended(kLabControlName); }, kPatience));
   EXPECT_THAT(one.run.exit_codes(), testing::Each(testing::Pair(testing::_, kExitDied)));

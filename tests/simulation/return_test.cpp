@@ -37,10 +37,11 @@ class Return {
   /// all have noticed, restarts the process, and waits until the car has driven on.
   /// @param noticed  the controller logs it, beside the lab control
   void kill_and_start_again(const std::string& process, const std::string& noticed = "") {
-    ASSERT_TRUE(
-        run.comes_to([&] { return test::planned_steps(run.reports(), kVictim) >= 20; }, kPatience));
-    // Until the copy of the last command has arrived: without it the car would drop its plan.
-    run.pass(kSecond / 20);
+    ASSERT_TRUE(run.comes_to(
+        [&] {
+          return run.is_between_commands() && test::planned_steps(run.reports(), kVictim) >= 20;
+        },
+        kPatience));
     run.kill(process);
     killed = run.now();
     ASSERT_TRUE(run.comes_to(

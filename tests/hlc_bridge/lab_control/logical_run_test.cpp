@@ -147,6 +147,23 @@ TEST(LogicalRun, NothingIsReleasedBeforeAllAnswersOwedHaveCome) {
   EXPECT_EQ(run.pending_answers(), 2U);
 }
 
+TEST(LogicalRun, ATickWaitsForTheReportsOfTheListBefore) {
+  LogicalRun run{settings({1}, 20)};
+  run.trigger_readers(timers_of({1}));
+  run.ready({vehicle_name(1), 0});
+  run.ready({middleware_name(1), kListOffset});
+  EXPECT_THAT(run.advance(1).triggers, ElementsAre(0));
+  run.ready({vehicle_name(1), kVehiclePeriod});
+  EXPECT_THAT(run.advance(2).triggers, ElementsAre(kListOffset));
+  run.ready({middleware_name(1), kPeriod + kListOffset});
+  EXPECT_THAT(run.advance(3).triggers, IsEmpty());
+  EXPECT_EQ(run.pending_answers(), 1U);
+  ReportRecord record;
+  record.report.vehicle = VehicleId{1};
+  run.report(record);
+  EXPECT_THAT(run.advance(4).triggers, ElementsAre(kVehiclePeriod));
+}
+
 TEST(LogicalRun, ControllersStopRequestEndsTheRun) {
   LogicalRun run{settings({1, 2}, 20)};
   run.trigger_readers(timers_of({1, 2}));
