@@ -30,6 +30,8 @@ struct FaultRunResult {
 /// Everything that is judged and hashed while a run goes on.
 class RunJudges final : public RunObserver {
  public:
+  RunJudges(const RunJudges&) = delete;  // checks refer to `standing_`
+  RunJudges& operator=(const RunJudges&) = delete;
   RunJudges(const scenario::Scenario& scenario, Nanoseconds calm_from, const Trace& trace);
 
   /// Whose time and names are meant; before anything happens.
@@ -77,6 +79,7 @@ class RunJudges final : public RunObserver {
 
   Nanoseconds period_;
   FootprintsCheck footprints_;
+  StandingAreas standing_;
   PlansCheck plans_;
   DrivenPlans driven_;
   AnnouncedCheck announced_;
