@@ -215,6 +215,19 @@ void DrivenPlans::check_order(VehicleId vehicle, Car& car, Nanoseconds tick,
                                 " follows an older command than it has received"});
 }
 
+const coordination::OccupiedAreas& DrivenPlans::areas_of(const Car& car) {
+  return car.stands ? *car.stands : *car.driven->areas;
+}
+
+bool DrivenPlans::meet(const coordination::OccupiedAreas& areas, VehicleId other, const Car& its,
+                       StepIndex from) const {
+  const coordination::OccupiedAreas& its_areas = areas_of(its);
+  if (coordination::are_free(areas, its_areas, from, horizon_steps_)) return false;
+  const bool has_run_out = from.value > its_areas.first.value + its_areas.areas_m.size();
+  return !has_run_out || standing_ == nullptr || !standing_->has(other) ||
+         !coordination::are_free(areas, standing_->area(other), from, horizon_steps_);
+}
+
 void DrivenPlans::check_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations) {
   const Car& car = cars_.at(vehicle);
   if (!is_checked(vehicle, car, tick) || car.driven->is_anchored) return;
@@ -222,12 +235,9 @@ void DrivenPlans::check_pairs(VehicleId vehicle, Nanoseconds tick, Violations& v
   const StepIndex now{tick / period_};
   for (const auto& [other, its] : cars_) {
     if (other == vehicle || !is_checked(other, its, tick)) continue;
-    const coordination::OccupiedAreas& its_areas = its.stands ? *its.stands : *its.driven->areas;
-    const StepIndex from = std::max({now, areas.first, its_areas.first});
-    if (coordination::are_free(areas, its_areas, from, horizon_steps_) ||
-        !met_.insert(std::minmax(vehicle, other)).second) {
+    const StepIndex from = std::max({now, areas.first, areas_of(its).first});
+    if (!meet(areas, other, its, from) || !met_.insert(std::minmax(vehicle, other)).second)
       continue;
-    }
     violations.push_back({.at = tick,
                           .check = "driven",
                           .text = "vehicles " + std::to_string(other.value) + " and " +

@@ -14,6 +14,7 @@
 #include "planner/coordination/plan.hpp"
 #include "planner/coordination/report.hpp"
 #include "vehicle_sim/closed_loop/received_commands.hpp"
+#include "vehicle_sim/closed_loop/standing_areas.hpp"
 #include "vehicle_sim/closed_loop/violation.hpp"
 
 namespace hlc::closed_loop {
@@ -45,8 +46,10 @@ class DrivenPlans {
  public:
   static constexpr Nanoseconds kAfterwards = 2 * kNanosecondsPerSecond;
 
-  DrivenPlans(std::size_t horizon_steps, Nanoseconds period)
-      : horizon_steps_(horizon_steps), period_(period) {}
+  /// @param standing  as in PlansCheck
+  DrivenPlans(std::size_t horizon_steps, Nanoseconds period,
+              const StandingAreas* standing = nullptr)
+      : horizon_steps_(horizon_steps), period_(period), standing_(standing) {}
 
   void predicted(const coordination::Prediction& prediction) {
     cars_[prediction.vehicle].predicted = prediction;
@@ -124,10 +127,14 @@ class DrivenPlans {
   void check_drop(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
   [[nodiscard]] bool is_checked(VehicleId vehicle, const Car& car, Nanoseconds tick) const;
   void check_order(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
+  [[nodiscard]] static const coordination::OccupiedAreas& areas_of(const Car& car);
+  [[nodiscard]] bool meet(const coordination::OccupiedAreas& areas, VehicleId other, const Car& its,
+                          StepIndex from) const;
   void check_pairs(VehicleId vehicle, Nanoseconds tick, Violations& violations);
 
   std::size_t horizon_steps_;
   Nanoseconds period_;
+  const StandingAreas* standing_;
   std::map<VehicleId, Car> cars_;
   std::set<std::pair<VehicleId, VehicleId>> met_;
   std::set<VehicleId> off_command_;

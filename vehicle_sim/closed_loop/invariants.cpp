@@ -96,6 +96,15 @@ bool PlansCheck::is_relied_on(const InForce& plan, StepIndex now) const {
   return !has_run_out && (plan.is_received || !is_silent);
 }
 
+bool PlansCheck::meet(const coordination::OccupiedAreas& areas, VehicleId other,
+                      const InForce& plan, StepIndex now) const {
+  const StepIndex from = std::max(areas.first, plan.areas.first);
+  if (coordination::are_free(areas, plan.areas, from, horizon_steps_)) return false;
+  const bool has_run_out = now.value >= plan.areas.first.value + plan.areas.areas_m.size();
+  return !has_run_out || standing_ == nullptr || !standing_->has(other) ||
+         !coordination::are_free(areas, standing_->area(other), from, horizon_steps_);
+}
+
 /// A vehicle that stands elsewhere than in its plan: it has been anchored there, and may agree to
 /// a new plan in the same step.
 void PlansCheck::published(const coordination::Traffic& traffic) {
@@ -128,12 +137,12 @@ void PlansCheck::reported(const coordination::Report& report, const coordination
           .areas;
   predicted_.erase(predicted);
   for (const auto& [other, plan] : in_force_) {
-    const StepIndex from = std::max(areas.first, plan.areas.first);
     if (other == vehicle || !is_relied_on(plan, report.step) ||
-        coordination::are_free(areas, plan.areas, from, horizon_steps_) ||
+        !meet(areas, other, plan, report.step) ||
         !met_.insert(std::minmax(vehicle, other)).second) {
       continue;
     }
+    const StepIndex from = std::max(areas.first, plan.areas.first);
     violations.push_back({.at = at,
                           .check = "plans",
                           .text = "plans in force of vehicles " + std::to_string(other.value) +

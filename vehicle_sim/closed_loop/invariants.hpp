@@ -15,6 +15,7 @@
 #include "planner/coordination/plan.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/geometry/pose.hpp"
+#include "vehicle_sim/closed_loop/standing_areas.hpp"
 #include "vehicle_sim/closed_loop/violation.hpp"
 
 /// Invariants of a run under any faults, each as a small checker that is notified of events.
@@ -85,6 +86,8 @@ class FootprintsCheck {
 /// into force with a report `planned`, and stays when its controller is gone, until the next
 /// controller is on standby: its vehicle has then been seen standing for a horizon.
 ///
+/// A vehicle whose plan has run out stands; it is enough to be free of where it truly does.
+///
 /// A vehicle without a report for horizon + 1 + kSilentSteps steps has finished every plan that it
 /// can have agreed to, and is a standing obstacle for the others (stands_for_good in missing.hpp).
 ///
@@ -95,7 +98,9 @@ class FootprintsCheck {
 /// from where they see it, not of a plan that it does not drive.
 class PlansCheck {
  public:
-  explicit PlansCheck(std::size_t horizon_steps) : horizon_steps_(horizon_steps) {}
+  /// @param standing  of the vehicles whose plan has run out; nullptr: only their plans count
+  explicit PlansCheck(std::size_t horizon_steps, const StandingAreas* standing = nullptr)
+      : horizon_steps_(horizon_steps), standing_(standing) {}
 
   void predicted(const coordination::Prediction& prediction) {
     predicted_[prediction.vehicle] = prediction;
@@ -117,9 +122,12 @@ class PlansCheck {
     StepIndex last_report;
     bool is_received{true};
   };
+  [[nodiscard]] bool meet(const coordination::OccupiedAreas& areas, VehicleId other,
+                          const InForce& plan, StepIndex now) const;
   [[nodiscard]] bool is_relied_on(const InForce& plan, StepIndex now) const;
 
   std::size_t horizon_steps_;
+  const StandingAreas* standing_;
   std::map<VehicleId, coordination::Prediction> predicted_;
   std::map<VehicleId, InForce> in_force_;
   std::set<Pair> met_;

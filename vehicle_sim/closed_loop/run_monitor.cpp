@@ -48,8 +48,10 @@ RunMonitor::RunMonitor(const scenario::Scenario& scenario, Nanoseconds calm_from
                        const Trace& trace)
     : period_(period_of(scenario)),
       footprints_(automaton_of(scenario).vehicle.footprint, starts_of(scenario)),
-      plans_(scenario.horizon_steps),
-      driven_(scenario.horizon_steps, period_),
+      standing_(automaton_of(scenario).vehicle.footprint,
+                automaton_of(scenario).vehicle.safety_margin_m),
+      plans_(scenario.horizon_steps, &standing_),
+      driven_(scenario.horizon_steps, period_, &standing_),
       announced_(automaton_of(scenario).vehicle.footprint, period_),
       planning_(calm_from),
       trace_(trace) {}
@@ -70,6 +72,7 @@ void RunMonitor::on_driven(std::uint8_t vehicle, Nanoseconds time,
   if (std::exchange(last.follows, sample.command_create) != sample.command_create) {
     trace([&] { return follows_line(vehicle, sample.command_create, period_); });
   }
+  standing_.driven(id, sample.pose);
   if (!stopped_.contains(vehicle)) {
     driven_.driven(id, tick, sample.command_create, result_.violations);
     plans_.received(id, driven_.has_plan_in_force(id));

@@ -30,6 +30,8 @@ struct FaultRunResult {
 /// Everything that is checked and hashed while a run goes on.
 class RunMonitor final : public RunObserver {
  public:
+  RunMonitor(const RunMonitor&) = delete;  // checks refer to `standing_`
+  RunMonitor& operator=(const RunMonitor&) = delete;
   RunMonitor(const scenario::Scenario& scenario, Nanoseconds calm_from, const Trace& trace);
 
   /// The lab that it observes; before the first event.
@@ -77,6 +79,7 @@ class RunMonitor final : public RunObserver {
 
   Nanoseconds period_;
   FootprintsCheck footprints_;
+  StandingAreas standing_;
   PlansCheck plans_;
   DrivenPlans driven_;
   AnnouncedCheck announced_;
