@@ -40,7 +40,7 @@ Controller::Controller(const ControllerOptions& options,
                  prepare_subgraph(std::move(subgraph), options.horizon_steps, options.search),
                  std::move(routes)) {}
 
-Controller::Controller(ControllerOptions options,
+Controller::Controller(const ControllerOptions& options,
                        std::shared_ptr<const automaton::Subgraph> subgraph,
                        road::ReferencePath path, road::Corridor corridor)
     : Controller(options, std::move(subgraph),

@@ -55,7 +55,7 @@ class Controller {
   /// With a single route.
   /// @param path      to be followed
   /// @param corridor  area in which the vehicle may drive
-  Controller(ControllerOptions options, std::shared_ptr<const automaton::Subgraph> subgraph,
+  Controller(const ControllerOptions& options, std::shared_ptr<const automaton::Subgraph> subgraph,
              road::ReferencePath path, road::Corridor corridor);
 
   [[nodiscard]] const ControllerOptions& options() const { return options_; }
