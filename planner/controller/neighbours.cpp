@@ -50,6 +50,12 @@ bool Neighbours::is_received(VehicleId vehicle) const {
   return found != traffic_.end() && found->second.step == now_;
 }
 
+bool Neighbours::is_received_by_any(VehicleId vehicle) const {
+  return std::ranges::any_of(received(), [vehicle](const coordination::Traffic* traffic) {
+    return std::ranges::find(traffic->silent, vehicle) == traffic->silent.end();
+  });
+}
+
 std::vector<const coordination::Traffic*> Neighbours::received() const {
   std::vector<const coordination::Traffic*> result;
   for (const auto& [vehicle, traffic] : traffic_) {
@@ -60,8 +66,9 @@ std::vector<const coordination::Traffic*> Neighbours::received() const {
 
 void Neighbours::update_liveness(const Observation& observation) {
   for (const VehicleId other : observation.active) {
-    const bool is_alive = is_received(other) || std::ranges::find(observation.present, other) !=
-                                                    observation.present.end();
+    const bool is_alive =
+        is_received(other) || is_received_by_any(other) ||
+        std::ranges::find(observation.present, other) != observation.present.end();
     const auto [last, is_first] = last_sign_of_life_.try_emplace(other, now_);
     if (is_alive && !is_first) last->second = now_;
   }

@@ -67,6 +67,9 @@ class Neighbours {
   void update_liveness(const Observation& observation);
   void update_standstill(const Observation& observation);
   [[nodiscard]] bool is_received(VehicleId vehicle) const;
+  /// Traffic of this step does not list it as silent: its sender receives it. (A sender that has
+  /// just started lists nobody for kSilentSteps.)
+  [[nodiscard]] bool is_received_by_any(VehicleId vehicle) const;
 
   VehicleId own_;
   coordination::MissingVehicleRules rules_;

@@ -84,11 +84,14 @@ struct DeviationCheck {
 /// planned here, D does not grow, and its areas are announced: whatever comes into force elsewhere
 /// is free of them.
 ///
-/// *Limit.* If the assumption fails, commands are lost while states come, D(k) is larger than
-/// anybody can know. One lost command does no harm: until t(k + 2) all that is in force is free of
-/// P(k - 1). Two in a row do, if others have planned in step k + 1 what is free of P(k) and P(k +
-/// 1) but not of P(k - 1): the vehicle is seen beside its plan in the list of step k + 2 at the
-/// earliest, and what came into force in step k + 1 stays if there is no way around.
+/// *Limit.* If the assumption fails, commands are lost or late while states come, D(k) is larger
+/// than anybody can know. One lost command leaves the vehicle on P(k - 1), of which all that is in
+/// force until t(k + 2) is free; but when the next one arrives, the vehicle changes over from P(k -
+/// 1) to P(k + 1) on a way that nobody has checked, as it does when a command arrives after its
+/// plan has begun. Two lost in a row do harm, too, if others have planned in step k + 1 what is
+/// free of P(k) and P(k + 1) but not of P(k - 1): the vehicle is seen beside its plan in the list
+/// of step k + 2 at the earliest, and what came into force in step k + 1 stays if there is no way
+/// around.
 class PlanInForce {
  public:
   /// Standing at the pose measured at t(step). `standstill` is the equilibrium trim's self-loop;

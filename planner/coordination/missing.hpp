@@ -43,7 +43,8 @@ inline constexpr std::uint64_t kSilentSteps = 3;
 /// State of a vehicle that publishes nothing.
 struct Silence {
   StepIndex now;
-  StepIndex last_sign_of_life;  ///< last step in which it published or its process was there
+  /// Last step in which it published, its process was there, or another vehicle received it.
+  StepIndex last_sign_of_life;
   StepIndex last_not_standing;  ///< last step in which the state list did not show it standing
 };
 
@@ -56,7 +57,7 @@ struct Silence {
 /// commit to a plan with others, and drive off at any time; and two vehicles that do not receive
 /// each other would both consider the other an obstacle, and drive off at once. So a vehicle whose
 /// process is still present is missing for as long as it is silent, and the others avoid it.
-/// Assumption: a controller that is neither received on the controllers' network nor shows any sign
+/// Assumption: a controller that nobody receives on the controllers' network and that shows no sign
 /// of life on the lab's for this long cannot command its vehicle either, since commands use the
 /// lab's network.
 [[nodiscard]] bool stands_for_good(const Silence& silence, std::size_t horizon_steps);

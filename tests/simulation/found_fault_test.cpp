@@ -108,6 +108,61 @@ TEST(FoundFault, Seed100975AVehicleThatIsAnchoredHasAgreedToNothing) {
         .amount = 180'539'902}});
 }
 
+/// Vehicle 4 did not receive vehicle 2, which waited for a step in which it was to drive off, and
+/// took it for a standing obstacle although others received it. They touched.
+TEST(FoundFault, Seed7331AVehicleThatOthersReceiveDoesNotStandForGood) {
+  run(paper(7, 0xdd3d6053fc973b22), {.seed = 7331, .transport = Transport::kLab},
+      {{.kind = FaultKind::kCut,
+        .begin = 874'339'965,
+        .end = 14'000 * kMs,
+        .process = controller_name(2),
+        .peer = controller_name(4)},
+       {.kind = FaultKind::kStep,
+        .begin = 3'087'523'214,
+        .end = 5'939'864'600,
+        .process = middleware_name(1),
+        .amount = -212'633'438},
+       {.kind = FaultKind::kCut,
+        .begin = 3'661'907'073,
+        .end = 14'000 * kMs,
+        .process = controller_name(3),
+        .peer = controller_name(2)}});
+}
+
+/// The controller dies between a command and its copy, and again before it has sent anything: the
+/// vehicle drops its plan.
+TEST(FoundFault, Seed7576AControllerThatDiesTwiceHasNotSentTheCopy) {
+  run(circle(3), {.seed = 7576, .transport = Transport::kLab},
+      {{.kind = FaultKind::kWithhold,
+        .begin = 2'939'954'561,
+        .end = 5'248'500'102,
+        .peer = controller_name(2),
+        .share = 1.0},
+       {.kind = FaultKind::kKill,
+        .begin = 3'612'097'985,
+        .end = 3'671'090'040,
+        .process = controller_name(2)},
+       {.kind = FaultKind::kCut,
+        .begin = 3'831'807'209,
+        .end = 7'000 * kMs,
+        .process = middleware_name(1),
+        .peer = controller_name(3)},
+       {.kind = FaultKind::kWithhold,
+        .begin = 3'875'095'250,
+        .end = 5'894'072'972,
+        .process = controller_name(2),
+        .peer = controller_name(3),
+        .share = 1.0},
+       {.kind = FaultKind::kKill,
+        .begin = 4'044'430'120,
+        .end = 4'644'332'095,
+        .process = controller_name(3)},
+       {.kind = FaultKind::kKill,
+        .begin = 4'644'873'212,
+        .end = 4'887'789'316,
+        .process = controller_name(3)}});
+}
+
 /// A controller that starts in the middle of a run in logical time commanded its vehicle to stand
 /// where it drove.
 TEST(FoundFault, Seed1178InLogicalTimeARestartedControllerLeavesAMovingVehicleAlone) {

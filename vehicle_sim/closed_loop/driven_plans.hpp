@@ -65,7 +65,9 @@ class DrivenPlans {
   void died(VehicleId vehicle, Nanoseconds at);
   /// Its controller's process has ended or is suspended. @param at  true time
   void controller_stopped(VehicleId vehicle, Nanoseconds at) {
-    cars_[vehicle].controller_stopped = at;
+    Car& car = cars_[vehicle];
+    const bool is_stopped = !car.sent.empty() && car.controller_stopped >= car.sent.back().at;
+    if (!is_stopped) car.controller_stopped = at;
   }
 
   /// The vehicle has received the plan that was agreed last.
@@ -107,7 +109,7 @@ class DrivenPlans {
     std::deque<Sent> sent;  ///< the newest last
     bool is_commanded_to_stand{};
     ReceivedCommands received;
-    Nanoseconds controller_stopped{};
+    Nanoseconds controller_stopped{};  ///< for the first time after what it sent last
     Nanoseconds follows{};
     AgreedPlan driven;
     LateChange late_change;

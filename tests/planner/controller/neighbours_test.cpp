@@ -16,12 +16,17 @@ const std::vector<VehicleId> kActive{{1}, {2}, {3}};
 class NeighboursTest : public testing::Test {
  protected:
   /// A step in which the vehicles of `received` are received and those of `present` are there.
-  void step(const std::vector<std::uint8_t>& received, std::vector<VehicleId> present = {}) {
+  /// The received ones list `unheard` as silent.
+  void step(const std::vector<std::uint8_t>& received, std::vector<VehicleId> present = {},
+            const std::vector<VehicleId>& unheard = {}) {
     ++now_.value;
     neighbours_.begin_step(now_);
     silent_ = neighbours_.silent(kActive);
     std::vector<coordination::Traffic> traffic;
-    for (const std::uint8_t vehicle : received) traffic.push_back(traffic_of(vehicle, now_));
+    for (const std::uint8_t vehicle : received) {
+      traffic.push_back(traffic_of(vehicle, now_));
+      traffic.back().silent = unheard;
+    }
     traffic.push_back(traffic_of(9, now_));              // takes no part
     traffic.push_back(traffic_of(3, {now_.value - 1}));  // of another step
     Observation observation{.step = now_, .active = kActive, .states = {}, .present = present};
@@ -68,6 +73,13 @@ TEST_F(NeighboursTest, WhoIsSilentButPresentNeverStandsForGood) {
   for (int i = 0; i < 20; ++i) step({}, {{2}});
   EXPECT_FALSE(neighbours_.stands_for_good({2}, kHorizon));
   EXPECT_TRUE(neighbours_.stands_for_good({3}, kHorizon));
+}
+
+TEST_F(NeighboursTest, WhoIsSilentButReceivedByAnotherNeverStandsForGood) {
+  for (int i = 0; i < 20; ++i) step({3});
+  EXPECT_FALSE(neighbours_.stands_for_good({2}, kHorizon));
+  for (int i = 0; i < 20; ++i) step({3}, {}, {{2}});
+  EXPECT_TRUE(neighbours_.stands_for_good({2}, kHorizon));
 }
 
 }  // namespace
