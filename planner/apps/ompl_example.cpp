@@ -287,7 +287,7 @@ int run(const Flags& flags) {
   setup.setGoal(
       std::make_shared<hlc::search::StandstillGoal>(si, *file.subgraph, problem, flags.radius_m));
   setup.setOptimizationObjective(
-      std::make_shared<hlc::search::SquaredDistanceObjective>(si, problem.reference_m));
+      std::make_shared<hlc::search::SquaredDistanceObjective>(si, problem));
 
   ompl::RNG::setSeed(flags.seed);
   ot::Benchmark benchmark(setup, "receding horizon");

@@ -50,10 +50,16 @@ struct ControllerStrategies {
   friend bool operator==(const ControllerStrategies&, const ControllerStrategies&) = default;
 };
 
+/// Greater weights cost accuracy: at 1e4 and 10 m costs still differ by 1e-9.
+inline constexpr double kMostContouringWeight = 1e4;
+
 struct ControllerOptions {
   VehicleId vehicle;
   std::size_t horizon_steps{8};
   double reference_speed_mps{0.8};
+  /// w of HorizonProblem: how much more an error across the path counts than one along it. 0: as in
+  /// the paper.
+  double contouring_weight{};
   road::ReferenceRule reference_rule{road::half_speed_last};
   ControllerStrategies strategies{};
   search::SearchOptions search{};

@@ -1,6 +1,8 @@
 #include "planner/controller/problem_alone.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <utility>
 
 namespace hlc::controller {
@@ -8,6 +10,21 @@ namespace {
 
 /// Boundary pieces this far beyond the reach of the plan are kept, so that none is missed.
 constexpr double kBoundaryReserve_m = 0.4;
+/// Half the length of the chord whose direction counts as the path's.
+constexpr double kHalfChord_m = 0.02;
+
+/// HorizonProblem::contouring at the points of the path with these arc lengths.
+std::vector<Point> contouring(const road::ReferencePath& path, std::span<const double> s_m,
+                              double weight) {
+  std::vector<Point> contouring;
+  contouring.reserve(s_m.size());
+  for (const double s : s_m) {
+    // The direction of a single segment would jump at the joints.
+    const Point chord = path.at(s + kHalfChord_m) - path.at(s - kHalfChord_m);
+    contouring.push_back(std::sqrt(weight) * Point(-chord.y(), chord.x()).normalized());
+  }
+  return contouring;
+}
 
 }  // namespace
 
@@ -22,6 +39,9 @@ search::HorizonProblem problem_alone(const coordination::Traffic& own, const Rou
       options.reference_speed_mps, options.horizon_steps, automaton.step_s, options.reference_rule);
   problem.reference_m = std::move(reference.points_m);
   problem.reference_speed_mps = std::move(reference.speeds_mps);
+  if (options.contouring_weight > 0.0) {
+    problem.contouring = contouring(tracker.route().path, reference.s_m, options.contouring_weight);
+  }
   problem.boundary_m =
       corridor.boundary_m(s_m - kBoundaryReserve_m, s_m + reach_m + kBoundaryReserve_m);
   return problem;
@@ -36,6 +56,10 @@ search::HorizonProblem one_step_later(search::HorizonProblem problem,
   if (reference_m.size() < 2) return problem;
   reference_m.push_back(2.0 * reference_m.back() - reference_m[reference_m.size() - 2]);
   reference_m.erase(reference_m.begin());
+  if (!problem.contouring.empty()) {
+    std::ranges::rotate(problem.contouring, problem.contouring.begin() + 1);
+    problem.contouring.back() = problem.contouring[problem.contouring.size() - 2];
+  }
   if (problem.obstacles_m.empty()) return problem;
   std::ranges::rotate(problem.obstacles_m, problem.obstacles_m.begin() + 1);
   problem.obstacles_m.back() = problem.obstacles_m[problem.obstacles_m.size() - 2];

@@ -25,10 +25,12 @@ Reference reference_points(const ReferencePath& path, double start_s_m, double c
              step_s, reference_speed_mps);
   Reference reference{.speeds_mps = rule(current_speed_mps, reference_speed_mps, horizon_steps)};
   reference.points_m.reserve(horizon_steps);
+  reference.s_m.reserve(horizon_steps);
   double s_m = start_s_m;
   for (const double speed_mps : reference.speeds_mps) {
     s_m += speed_mps * step_s;
     reference.points_m.push_back(path.at(s_m));
+    reference.s_m.push_back(s_m);
   }
   return reference;
 }

@@ -24,9 +24,10 @@ using ReferenceRule = std::vector<double> (*)(double current_speed_mps, double r
                                                    double reference_speed_mps,
                                                    std::size_t horizon_steps);
 
-/// Reference of one plan: r_1 ... r_n and the speed of each step.
+/// Reference of one plan: r_1 ... r_n, their arc lengths and the speed of each step.
 struct Reference {
   std::vector<Point> points_m;
+  std::vector<double> s_m;
   std::vector<double> speeds_mps;
 };
 

@@ -188,6 +188,9 @@ search::HorizonProblem read_problem(const Node& root, const automaton::Subgraph&
   for (const Node& entry : root.list("reference", n, per_step)) {
     problem.reference_m.push_back(read_point(entry));
   }
+  for (const Node& entry : root.optional_list("contouring", n, per_step)) {
+    problem.contouring.push_back(read_point(entry));
+  }
   for (const Node& entry : root.optional_list("reference_speed", n, per_step)) {
     problem.reference_speed_mps.push_back(entry.as<double>(at_least(0.0)));
   }
@@ -206,8 +209,8 @@ search::HorizonProblem read_problem(const Node& root, const automaton::Subgraph&
 Node read_root(const std::filesystem::path& path) {
   Node root = Node::read_json(path);
   root.check_keys({"automaton", "subgraph", "horizon_steps", "step_s", "start", "reference",
-                   "reference_speed", "obstacles", "corridor", "avoids_steering_limit", "incumbent",
-                   "search"});
+                   "contouring", "reference_speed", "obstacles", "corridor",
+                   "avoids_steering_limit", "incumbent", "search"});
   return root;
 }
 
@@ -241,6 +244,7 @@ std::string to_text(const ProblemFile& file) {
               {"psi", number(problem.start.heading_rad)},
               {"trim", problem.start_trim.index + 1}}},
             {"reference", list(problem.reference_m, point)}};
+  if (!problem.contouring.empty()) root["contouring"] = list(problem.contouring, point);
   if (!problem.reference_speed_mps.empty()) {
     root["reference_speed"] = list(problem.reference_speed_mps, number);
   }

@@ -32,6 +32,7 @@ inline constexpr std::size_t kMaxProblemSteps = 64;
 ///     step_s           the automaton's
 ///     start            {x, y, psi, trim}: pose and trim at the begin of step 1
 ///     reference        [[x, y], ...], one point per step
+///     contouring       one [x, y] per step; may be absent: HorizonProblem::contouring
 ///     reference_speed  one per step, >= 0; may be absent unless the cost-to-go is 2022
 ///     obstacles        one list per step of convex polygons [[x, y], ...], counter-clockwise or
 ///                      clockwise, first vertex not repeated, area at least 1e-12 m^2; may be

@@ -62,6 +62,7 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
       controller::ControllerOptions{.vehicle = id,
                                     .horizon_steps = scenario.horizon_steps,
                                     .reference_speed_mps = scenario.reference_speed_mps,
+                                    .contouring_weight = scenario.contouring_weight,
                                     .reference_rule = scenario.profile.reference_rule,
                                     .strategies = scenario.profile.strategies,
                                     .search = scenario.search,

@@ -38,6 +38,7 @@ struct Scenario {
   std::size_t steps{};
   std::size_t horizon_steps{};
   double reference_speed_mps{};
+  double contouring_weight{};  ///< ControllerOptions
   Profile profile;
   /// Engine: the command line's, else the file's, else the profile's
   search::SearchOptions search;

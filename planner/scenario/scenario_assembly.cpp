@@ -215,6 +215,7 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   scenario.steps = choices.steps.value_or(values.steps);
   scenario.horizon_steps = values.horizon_steps;
   scenario.reference_speed_mps = values.reference_speed_mps;
+  scenario.contouring_weight = values.contouring_weight;
   scenario.profile = profile_from_name(choices.profile);
   scenario.search = choose_search(values, choices, scenario.profile);
   scenario.is_reconfigurable = values.is_reconfigurable;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "planner/controller/controller_options.hpp"
 #include "planner/scenario/policy_file.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "planner/scenario/search_values.hpp"
@@ -84,6 +85,8 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .steps = node.required<std::size_t>("steps", between(1.0, 100000.0)),
       .horizon_steps = node.optional<std::size_t>("horizon_steps", 8, between(1.0, 64.0)),
       .reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8, above(0.0)),
+      .contouring_weight = node.optional<double>("contouring_weight", 0.0,
+                                                 between(0.0, controller::kMostContouringWeight)),
       .engine = read_engine(node),
       .max_expansions = read_max_expansions(node),
       .criterion_weights = read_criterion_weights(node),

@@ -14,10 +14,12 @@ namespace hlc::search {
 /// The receding-horizon problem: find n maneuvers (or self-loops of trims) from the start that end
 /// in an equilibrium, whose areas meet no obstacle and cross no boundary, and that minimise
 ///
-///     sum_{j=1}^{n} || p_j - r_j ||^2   [m^2]
+///     sum_{j=1}^{n} || p_j - r_j ||^2 + (c_j . (p_j - r_j))^2   [m^2]
 ///
-/// with p_j the position after step j and r_j the reference point of that step (paper, Section 4);
-/// with SearchOptions::criterion_weights the maneuvers' own criteria, too (edge_costs.hpp).
+/// with p_j the position after step j and r_j the reference point of that step; in the paper
+/// (Section 4) c_j = 0. With c_j = sqrt(w) n_j, n_j the unit normal of the reference path at r_j,
+/// the error across the path (contouring error) counts 1 + w times as much as the error along it.
+/// With SearchOptions::criterion_weights the maneuvers' own criteria are added (edge_costs.hpp).
 /// Coordinates are at most kLargest_m, the start's heading is at most kLargestHeading_rad.
 struct HorizonProblem {
   static constexpr double kLargest_m = kLargestCoordinate_m;
@@ -27,6 +29,7 @@ struct HorizonProblem {
   Pose start;
   TrimId start_trim;
   std::vector<Point> reference_m;  ///< r_1 ... r_n; its size is the horizon n
+  std::vector<Point> contouring;   ///< c_1 ... c_n [1]; empty: all are 0
   /// Of each step; needed only by the cost-to-go `kReferenceSpeed`, otherwise it may be empty.
   std::vector<double> reference_speed_mps;
   /// Areas that are occupied during step j (index j - 1), any number per step; empty: none at all.
@@ -41,6 +44,13 @@ struct HorizonProblem {
   std::vector<const automaton::Maneuver*> incumbent;
 
   [[nodiscard]] std::size_t horizon_steps() const { return reference_m.size(); }
+  /// The cost of being at `position_m` after step `index` + 1 [m^2].
+  [[nodiscard]] double position_cost_m2(std::size_t index, const Point& position_m) const {
+    const Point error_m = position_m - reference_m[index];
+    if (contouring.empty()) return error_m.squaredNorm();
+    const double across = contouring[index].dot(error_m);
+    return error_m.squaredNorm() + across * across;
+  }
 };
 
 enum class CostToGo {

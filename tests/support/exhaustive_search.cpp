@@ -28,7 +28,7 @@ class Enumeration {
         continue;
       }
       const Pose next = compose(pose, edge.maneuver->displacement);
-      const double step_cost = (next.position_m() - problem_.reference_m[done]).squaredNorm() +
+      const double step_cost = position_cost_m2(problem_, done + 1, next.position_m()) +
                                weighted_criteria(*edge.maneuver, weights_);
       path_.push_back(edge.maneuver);
       try_all(next, edge.to, cost + step_cost);

@@ -52,6 +52,14 @@ double weighted_criteria(const automaton::Maneuver& maneuver,
   return cost;
 }
 
+double position_cost_m2(const search::HorizonProblem& problem, std::size_t step,
+                        const Point& position_m) {
+  const Point error_m = position_m - problem.reference_m[step - 1];
+  const Point c = problem.contouring.empty() ? Point::Zero() : problem.contouring[step - 1];
+  const double across = c.x() * error_m.x() + c.y() * error_m.y();
+  return error_m.x() * error_m.x() + error_m.y() * error_m.y() + across * across;
+}
+
 std::string validate(const search::SearchResult& result, const automaton::Subgraph& subgraph,
                      const search::HorizonProblem& problem,
                      const std::vector<search::PlanningWeight>& weights) {
@@ -80,8 +88,8 @@ std::string validate(const search::SearchResult& result, const automaton::Subgra
     if (!are_close(pose, result.poses[step - 1])) {
       return "pose differs" + at;
     }
-    cost += (pose.position_m() - problem.reference_m[step - 1]).squaredNorm() +
-            weighted_criteria(*maneuver, weights);
+    cost +=
+        position_cost_m2(problem, step, pose.position_m()) + weighted_criteria(*maneuver, weights);
   }
   if (!subgraph.automaton().trims[trim.index].is_equilibrium()) {
     return "does not stand at the end";

@@ -21,6 +21,11 @@ namespace hlc::test {
                                    const search::HorizonProblem& problem,
                                    const std::vector<search::PlanningWeight>& weights = {});
 
+/// The formula of HorizonProblem, written out again: cost of being at `position_m` after step
+/// number `step` (1 ... n) [m^2].
+[[nodiscard]] double position_cost_m2(const search::HorizonProblem& problem, std::size_t step,
+                                      const Point& position_m);
+
 /// Sum of weight times value of the maneuver's criteria.
 [[nodiscard]] double weighted_criteria(const automaton::Maneuver& maneuver,
                                        const std::vector<search::PlanningWeight>& weights);

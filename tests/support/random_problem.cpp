@@ -65,6 +65,15 @@ void add_loose_segments(search::HorizonProblem& problem, std::mt19937_64& random
   }
 }
 
+/// Any directions: the search must not rely on normals of the path.
+void add_contouring(search::HorizonProblem& problem, std::mt19937_64& random) {
+  const double weight = std::pow(10.0, uniform(random, -1.0, 3.0));
+  for (std::size_t j = 0; j < problem.horizon_steps(); ++j) {
+    problem.contouring.push_back(std::sqrt(weight) *
+                                 direction(uniform(random, -std::numbers::pi, std::numbers::pi)));
+  }
+}
+
 }  // namespace
 
 double uniform(std::mt19937_64& random, double low, double high) {
@@ -137,6 +146,7 @@ search::HorizonProblem random_problem(const automaton::Subgraph& subgraph,
   } else if (boundary == 1) {
     add_loose_segments(problem, random);
   }
+  if (pick(random, 3) == 0) add_contouring(problem, random);
   return problem;
 }
 

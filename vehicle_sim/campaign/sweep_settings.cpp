@@ -46,6 +46,13 @@ const std::vector<SweepSetting>& sweep_settings() {
        [](const Value& value, scenario::Scenario& scenario) {
          scenario.reference_speed_mps = value.number;
        }},
+      {"contouring_weight",
+       true,
+       between(0.0, controller::kMostContouringWeight),
+       {},
+       [](const Value& value, scenario::Scenario& scenario) {
+         scenario.contouring_weight = value.number;
+       }},
       {"drivable", false, one_of({"lanes", "everywhere"}), {}, set_drivable},
       {"acceleration_mps2",
        true,

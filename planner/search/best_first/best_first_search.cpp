@@ -21,7 +21,8 @@ bool is_well_formed(const HorizonProblem& problem, const automaton::ReachableSet
   const bool speeds_match = problem.reference_speed_mps.size() == n ||
                             (!needs_reference_speeds(kind) && problem.reference_speed_mps.empty());
   const bool obstacles_match = problem.obstacles_m.empty() || problem.obstacles_m.size() == n;
-  return n <= reachable.max_steps() && speeds_match && obstacles_match &&
+  const bool contouring_matches = problem.contouring.empty() || problem.contouring.size() == n;
+  return n <= reachable.max_steps() && speeds_match && obstacles_match && contouring_matches &&
          problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad);
 }
 
@@ -129,7 +130,7 @@ bool BestFirstSearch::write_incumbent(const HorizonProblem& problem, SearchResul
     frame = compose(frame, step->displacement);
     pose = {frame.origin_m.x(), frame.origin_m.y(),
             pose.heading_rad + maneuver->displacement.heading_rad};
-    cost += (frame.origin_m - problem.reference_m[depth]).squaredNorm() + step->cost;
+    cost += problem.position_cost_m2(depth, frame.origin_m) + step->cost;
     trim = step->to;
     result.maneuvers.push_back(maneuver);
     result.poses.push_back(pose);
@@ -157,14 +158,13 @@ void BestFirstSearch::expand(VertexId vertex, const HorizonProblem& problem,
   const Vertex parent = vertices_[vertex];  // a copy: `vertices_` grows below
   const std::uint32_t depth = parent.depth + 1;
   const std::size_t steps_left = problem.horizon_steps() - depth;
-  const Point& reference_m = problem.reference_m[depth - 1];
 
   for (const Step& step : steps_[parent.trim.index]) {
     if (step.distance_to_standstill > steps_left) continue;
     if (step.ends_at_limit && problem.avoids_steering_limit) continue;
     const Frame frame = compose(parent.frame, step.displacement);
     const double cost_to_come =
-        parent.cost_to_come + (frame.origin_m - reference_m).squaredNorm() + step.cost;
+        parent.cost_to_come + problem.position_cost_m2(depth - 1, frame.origin_m) + step.cost;
     const auto child = static_cast<VertexId>(vertices_.size());
     vertices_.push_back({frame, cost_to_come, step.maneuver, step.to, vertex, depth});
     const double to_go = cost_to_go(step.to, depth, frame) + costs_.to_go(step.to, steps_left);

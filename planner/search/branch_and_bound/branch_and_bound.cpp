@@ -104,6 +104,8 @@ class BranchAndBound::Core {
     if (reference_x_.size() < n) {
       reference_x_.resize(n);
       reference_y_.resize(n);
+      contouring_x_.resize(n);
+      contouring_y_.resize(n);
       seen_stride_ = n + kFloatLanes;
       seen_x_.resize(n * seen_stride_);
       seen_y_.resize(n * seen_stride_);
@@ -125,6 +127,9 @@ class BranchAndBound::Core {
     for (std::size_t j = 0; j < n; ++j) {
       reference_x_[j] = problem.reference_m[j].x();
       reference_y_[j] = problem.reference_m[j].y();
+      const Point contouring = problem.contouring.empty() ? Point::Zero() : problem.contouring[j];
+      contouring_x_[j] = contouring.x();
+      contouring_y_[j] = contouring.y();
       const double dx_m = reference_x_[j] - problem.start.x_m;
       const double dy_m = reference_y_[j] - problem.start.y_m;
       seen_x_[j] = static_cast<float>(dx_m * units_per_m);
@@ -133,6 +138,8 @@ class BranchAndBound::Core {
     }
     plan.reference_x = reference_x_.data();
     plan.reference_y = reference_y_.data();
+    plan.contouring_x = contouring_x_.data();
+    plan.contouring_y = contouring_y_.data();
     plan.seen_x = seen_x_.data();
     plan.seen_y = seen_y_.data();
     plan.seen_stride = seen_stride_;
@@ -201,6 +208,8 @@ class BranchAndBound::Core {
  private:
   std::vector<double> reference_x_;
   std::vector<double> reference_y_;
+  std::vector<double> contouring_x_;
+  std::vector<double> contouring_y_;
   std::vector<float> seen_x_;
   std::vector<float> seen_y_;
   std::size_t seen_stride_{};
@@ -229,6 +238,8 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
                             SearchResult& result) {
   const std::size_t n = problem.horizon_steps();
   HLC_DEMAND(n <= reachable_.max_steps(), n, reachable_.max_steps());
+  HLC_DEMAND(problem.contouring.empty() || problem.contouring.size() == n,
+             problem.contouring.size(), n);
   HLC_DEMAND(problem.obstacles_m.empty() || problem.obstacles_m.size() == n,
              problem.obstacles_m.size(), n);
   HLC_DEMAND(problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad),
@@ -286,7 +297,7 @@ void BranchAndBound::place_incumbent(const HorizonProblem& problem) {
                                                   data.displacement[kCos],
                                                   data.displacement[kSin]});
     put(vertex, next);
-    vertex.cost_to_come += (next.origin_m - problem.reference_m[depth]).squaredNorm() + data.cost;
+    vertex.cost_to_come += problem.position_cost_m2(depth, next.origin_m) + data.cost;
     vertex.trim = data.to;
     core.best_edges[depth] = edge;
     core.best_x[depth] = vertex.place[kX];

@@ -177,6 +177,8 @@ struct Plan {
   std::size_t horizon_steps;
   const double* reference_x;  ///< r_1 ... r_n
   const double* reference_y;
+  const double* contouring_x;  ///< c_1 ... c_n, zeros if there are none
+  const double* contouring_y;
   /// Reference points relative to the start [1 / Tables::units_per_m m], and eight more: at first
   /// along the axes of the problem's frame. Then, at offsets of `seen_stride`, seen from every
   /// vertex of a path except the last, those after its next one.

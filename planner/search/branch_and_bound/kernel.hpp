@@ -111,6 +111,8 @@ struct Expansion {
   Doubles ahead;  ///< the next reference point, seen from the vertex
   Doubles aside;
   Doubles cost_to_come;
+  Doubles contouring_ahead;  ///< HorizonProblem::contouring, seen from the vertex
+  Doubles contouring_aside;
 };
 
 HLC_INLINE Expansion begin_expansion(Search& search, VertexData& vertex, std::size_t depth) {
@@ -135,15 +137,19 @@ HLC_INLINE Expansion begin_expansion(Search& search, VertexData& vertex, std::si
           tables.displacement_y + first_edge,
           all(dx * c + dy * s),
           all(dy * c - dx * s),
-          all(vertex.cost_to_come)};
+          all(vertex.cost_to_come),
+          all(plan.contouring_x[depth] * c + plan.contouring_y[depth] * s),
+          all(plan.contouring_y[depth] * c - plan.contouring_x[depth] * s)};
 }
 
 /// Cost-to-come of four edges' ends and the certain cost after them.
 HLC_INLINE Doubles cost_without_bound(const Expansion& expansion, std::size_t edge) {
   const Doubles beside_x = expansion.ahead - load(expansion.displacement_x + edge);
   const Doubles beside_y = expansion.aside - load(expansion.displacement_y + edge);
+  const Doubles across =
+      beside_x * expansion.contouring_ahead + beside_y * expansion.contouring_aside;
   return load(expansion.penalty + edge) + expansion.cost_to_come +
-         (beside_x * beside_x + beside_y * beside_y);
+         ((beside_x * beside_x + beside_y * beside_y) + across * across);
 }
 
 HLC_INLINE Doubles keep_key(const Tables& tables, VertexData& vertex, std::size_t edge,
@@ -417,7 +423,9 @@ void run(Search& search) {
       child.from_edge = edge;
       const double dx = child.place[kX] - plan.reference_x[depth];
       const double dy = child.place[kY] - plan.reference_y[depth];
-      child.cost_to_come = vertex->cost_to_come + (dx * dx + dy * dy) + data.cost;
+      const double across = dx * plan.contouring_x[depth] + dy * plan.contouring_y[depth];
+      child.cost_to_come =
+          vertex->cost_to_come + ((dx * dx + dy * dy) + across * across) + data.cost;
       if (depth + 1 < n) {
         child.trim = data.to;
         child.move = move_to(search, child, depth + 1, data);

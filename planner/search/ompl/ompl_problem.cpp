@@ -85,15 +85,15 @@ bool StandstillGoal::isSatisfied(const ob::State* state) const {
 }
 
 SquaredDistanceObjective::SquaredDistanceObjective(const ob::SpaceInformationPtr& si,
-                                                   const std::vector<Point>& reference_m)
-    : OptimizationObjective(si), reference_m_(&reference_m) {
+                                                   const HorizonProblem& problem)
+    : OptimizationObjective(si), problem_(&problem) {
   description_ = "sum of squared distances to the reference points";
 }
 
 ob::Cost SquaredDistanceObjective::stateCost(const ob::State* state) const {
   const HorizonState reached = read_state(*state);
-  if (reached.step == 0 || reached.step > reference_m_->size()) return identityCost();
-  return ob::Cost((reached.pose.position_m() - (*reference_m_)[reached.step - 1]).squaredNorm());
+  if (reached.step == 0 || reached.step > problem_->horizon_steps()) return identityCost();
+  return ob::Cost(problem_->position_cost_m2(reached.step - 1, reached.pose.position_m()));
 }
 
 ob::Cost SquaredDistanceObjective::motionCost(const ob::State* /*from*/,
@@ -106,7 +106,7 @@ HorizonProblemDefinition::HorizonProblemDefinition(const ob::SpaceInformationPtr
                                                    const HorizonProblem& problem)
     : ProblemDefinition(si),
       standstill_(std::make_shared<StandstillGoal>(si, subgraph, problem)),
-      distances_(std::make_shared<SquaredDistanceObjective>(si, problem.reference_m)) {
+      distances_(std::make_shared<SquaredDistanceObjective>(si, problem)) {
   ob::State* start = si->allocState();
   write_state({problem.start, problem.start_trim, 0}, *start);
   startStates_.push_back(start);  // addStartState would make a copy, which takes as long again
@@ -117,7 +117,7 @@ HorizonProblemDefinition::HorizonProblemDefinition(const ob::SpaceInformationPtr
 void HorizonProblemDefinition::pose(const HorizonProblem& problem) {
   write_state({problem.start, problem.start_trim, 0}, *startStates_.front());
   standstill_->pose(problem);
-  distances_->pose(problem.reference_m);
+  distances_->pose(problem);
   clearSolutionPaths();
   clearSolutionNonExistenceProof();
 }

@@ -65,15 +65,15 @@ class StandstillGoal final : public ompl::base::Goal {
   double radius_m_;
 };
 
-/// Cost of a path: sum of squared distances between the position after step j and r_j, j = 1 ... n
+/// Cost of a path: sum of HorizonProblem::position_cost_m2 of the positions after step j = 1 ... n
 /// [m^2].
 class SquaredDistanceObjective final : public ompl::base::OptimizationObjective {
  public:
-  /// @param reference_m  must stay alive as long as this object measures from it
+  /// @param problem  must stay alive as long as this object measures by it
   SquaredDistanceObjective(const ompl::base::SpaceInformationPtr& si,
-                           const std::vector<Point>& reference_m);
-  /// Changes the reference points.
-  void pose(const std::vector<Point>& reference_m) { reference_m_ = &reference_m; }
+                           const HorizonProblem& problem);
+  /// Changes the problem.
+  void pose(const HorizonProblem& problem) { problem_ = &problem; }
   /// The cost term of the state's step; 0 for the start and beyond the horizon.
   ompl::base::Cost stateCost(const ompl::base::State* state) const override;
   /// The term of the step that ends in `to`.
@@ -81,7 +81,7 @@ class SquaredDistanceObjective final : public ompl::base::OptimizationObjective 
                               const ompl::base::State* to) const override;
 
  private:
-  const std::vector<Point>* reference_m_;
+  const HorizonProblem* problem_;
 };
 
 /// A horizon problem in OMPL's terms: start state, StandstillGoal, SquaredDistanceObjective.

@@ -57,6 +57,17 @@ TEST(Controller, AloneItDrivesAlongItsPathAndEveryPlanEndsStanding) {
   EXPECT_NEAR(pose.y_m, 0.0, 1e-9);
 }
 
+TEST(Controller, TheProblemsContouringIsTheNormalOfThePathTimesTheRootOfTheWeight) {
+  Controller one(ControllerOptions{.vehicle = {1}, .contouring_weight = 9.0}, subgraph(),
+                 road::ReferencePath({Point(0.0, 0.0), Point(10.0, 0.0)}, false), road::Corridor{});
+  static_cast<void>(one.stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  static_cast<void>(step(one, at(101, {following(one, 101)})));
+  ASSERT_EQ(one.problems().size(), 1U);
+  const search::HorizonProblem& problem = one.problems().front();
+  ASSERT_EQ(problem.contouring.size(), problem.horizon_steps());
+  for (const Point& c : problem.contouring) EXPECT_LT((c - Point(0.0, 3.0)).norm(), 1e-12);
+}
+
 TEST(Controller, TheRestOfThePlanInForceIsTheIncumbent) {
   const auto one = controller(1);
   static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));

@@ -95,6 +95,8 @@ void expect_same(const search::HorizonProblem& a, const search::HorizonProblem& 
   EXPECT_EQ(a.start_trim, b.start_trim);
   EXPECT_TRUE(std::ranges::equal(a.reference_m, b.reference_m,
                                  [](const Point& p, const Point& q) { return same_bits(p, q); }));
+  EXPECT_TRUE(std::ranges::equal(a.contouring, b.contouring,
+                                 [](const Point& p, const Point& q) { return same_bits(p, q); }));
   EXPECT_TRUE(std::ranges::equal(a.reference_speed_mps, b.reference_speed_mps,
                                  [](double p, double q) { return same_bits(p, q); }));
   ASSERT_EQ(a.obstacles_m.size(), b.obstacles_m.size());
@@ -170,6 +172,7 @@ TEST_F(ProblemFileTest, WhatMayBeAbsentMayBeAbsent) {
   EXPECT_TRUE(file.problem.obstacles_m.empty());
   EXPECT_TRUE(file.problem.boundary_m.empty());
   EXPECT_TRUE(file.problem.reference_speed_mps.empty());
+  EXPECT_TRUE(file.problem.contouring.empty());
   EXPECT_TRUE(file.problem.incumbent.empty());
   EXPECT_NO_THROW(check_can_be_searched(file));
 }
@@ -200,6 +203,8 @@ TEST_F(ProblemFileTest, ErrorsNamePlaceValueAndWhatIsAllowed) {
               HasSubstr("reference[2] has 3 entries, must have [x, y]"));
   EXPECT_THAT(error_with("[1, 0.8,", "[-1, 0.8,"),
               HasSubstr("reference_speed[0] = -1, must be a number >= 0"));
+  EXPECT_THAT(error_with(R"("reference_speed")", R"("contouring": [[0, 9]], "reference_speed")"),
+              HasSubstr("contouring has 1 entries, must have one per step, 3 of them"));
   EXPECT_THAT(error_with("[[], [], [", "[[], ["), HasSubstr("obstacles has 2 entries"));
   EXPECT_THAT(error_with(R"("horizon_steps": 3)", R"("horizon_steps": 65)"),
               HasSubstr("horizon_steps = 65, must be a whole number >= 1 and <= 64"));

@@ -61,6 +61,12 @@ TEST_F(ScenarioErrors, CriterionWeightsAreOfTheAutomatonsCriteriaAndNotNegative)
               HasSubstr(".yaml:7: criterion_weights.J2 = -0.5, must be"));
 }
 
+TEST_F(ScenarioErrors, AContouringWeightIsNotNegative) {
+  EXPECT_EQ(error_of("horizon_steps: 8", "contouring_weight: 150"), "");
+  EXPECT_THAT(error_of("horizon_steps: 8", "contouring_weight: -1"),
+              HasSubstr(".yaml:7: contouring_weight = -1, must be a number >= 0 and <= 10000"));
+}
+
 TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {
   EXPECT_THAT(error_of("steps: 150", "steps: many"), AllOf(HasSubstr("steps"), HasSubstr("many")));
 }

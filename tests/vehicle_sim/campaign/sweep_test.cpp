@@ -89,13 +89,15 @@ TEST(Sweep, OfTheFilesOwnSettingsDrivesAsThePlainCampaign) {
 TEST(Sweep, EverySettingReachesTheScenario) {
   const Sweep sweep = built_sweep(
       "subgraphs: [B]\nsteps: 30\nsettings: {profile: [default], drivable: [everywhere], "
-      "reference_rule: ['2022'], search: ['2022'], reference_speed_mps: [0.7], wheelbase_m: "
+      "reference_rule: ['2022'], search: ['2022'], reference_speed_mps: [0.7], contouring_weight: "
+      "[50], wheelbase_m: "
       "[0.2], acceleration_mps2: [14], steering_rate_radps: [8], width_m: [0.1], "
       "safety_margin_m: [0.02], trims: [[2, 7, 12]]}");
   ASSERT_EQ(sweep.runs().size(), 1U);
   const scenario::Scenario scenario = sweep.scenario_of(0);
   EXPECT_EQ(scenario.steps, 30U);
   EXPECT_EQ(scenario.reference_speed_mps, 0.7);
+  EXPECT_EQ(scenario.contouring_weight, 50.0);
   EXPECT_EQ(scenario.profile.reference_rule, road::half_speed_last);
   EXPECT_EQ(scenario.profile.strategies.coordination, controller::kStrictCoordination);
   EXPECT_EQ(scenario.profile.strategies.incumbent, &controller::no_incumbent);

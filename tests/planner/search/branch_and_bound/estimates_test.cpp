@@ -94,11 +94,12 @@ double cost_through(const automaton::Edge& edge, const automaton::Subgraph& subg
   rest.start = compose(problem.start, edge.maneuver->displacement);
   rest.start_trim = edge.to;
   rest.reference_m.erase(rest.reference_m.begin());
+  if (!rest.contouring.empty()) rest.contouring.erase(rest.contouring.begin());
   rest.reference_speed_mps.clear();
   if (!rest.obstacles_m.empty()) rest.obstacles_m.erase(rest.obstacles_m.begin());
   const auto truth = test::exhaustive_search(subgraph, rest);
   if (!truth.feasible) return std::numeric_limits<double>::infinity();
-  return truth.cost + (rest.start.position_m() - problem.reference_m.front()).squaredNorm();
+  return truth.cost + test::position_cost_m2(problem, 1, rest.start.position_m());
 }
 
 class BranchAndBoundEstimates : public testing::TestWithParam<Case> {
