@@ -1,6 +1,7 @@
 #include "planner/controller/controller.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "planner/automaton/deviation.hpp"
@@ -9,6 +10,7 @@
 #include "planner/controller/self_loop.hpp"
 #include "planner/coordination/coupling.hpp"
 #include "planner/coordination/priority.hpp"
+#include "planner/geometry/footprint.hpp"
 
 namespace hlc::controller {
 namespace {
@@ -52,7 +54,9 @@ Controller::Controller(ControllerOptions options, PreparedSubgraph on,
       search_(std::move(on), options_.search, options_.horizon_steps),
       tracker_(std::make_shared<const std::vector<road::DrivableRoute>>(std::move(routes))),
       drivable_area_(options_.strategies.standstill_timeout, options_.horizon_steps),
-      neighbours_(options_.vehicle, rules_for_missing(subgraph().automaton())) {}
+      neighbours_(options_.vehicle, rules_for_missing(subgraph().automaton())) {
+  if (options_.conflicts) authority_.emplace(options_.conflicts);
+}
 
 void Controller::set_max_expansions(std::size_t max_expansions) {
   options_.search.max_expansions = max_expansions;
@@ -124,6 +128,10 @@ coordination::Traffic Controller::observe(const Observation& observation) {
   traffic.running = in_force_->announced_areas(now);
   traffic.reachable_area_m = reachable_area_m();
   traffic.silent = neighbours_.silent(observation.active);
+  if (authority_) {
+    authority_->begin_step(plan_in_force(), now, tracker_, reach_m());
+    traffic.claim = authority_->claim();
+  }
   return traffic;
 }
 
@@ -168,6 +176,7 @@ void Controller::couple(std::span<const coordination::Traffic> received) {
   step_.report.missing = neighbours_.missing();
   step_.report.level =
       coordination::computation_level(graph, options_.vehicle, options_.strategies.plans_before);
+  extend_authority();
   // A coupled vehicle that does not receive our messages may soon drive as if we stood for good
   // (missing.hpp).
   const bool is_silent_to_any = std::ranges::any_of(coupled(), [this](VehicleId other) {
@@ -178,14 +187,39 @@ void Controller::couple(std::span<const coordination::Traffic> received) {
   }
 }
 
+/// Only with the messages of all: what is taken on less might be taken twice.
+void Controller::extend_authority() {
+  if (!authority_) return;
+  std::vector<ConvexPolygon> blocked_m;
+  for (const VehicleId other : neighbours_.missing()) {
+    const coordination::MeasuredVehicle* const measured = step_.observation.measured(other);
+    if (measured == nullptr || !neighbours_.stands_for_good(other, options_.horizon_steps)) return;
+    const vehicle::VehicleParameters& vehicle = subgraph().automaton().vehicle;
+    blocked_m.push_back(footprint_area(vehicle.footprint, measured->pose, vehicle.safety_margin_m));
+  }
+  std::vector<const coordination::Traffic*> holders;
+  for (const coordination::Traffic* traffic : neighbours_.received()) {
+    if (traffic->claim && traffic->claim->route < options_.conflicts->num_routes()) {
+      holders.push_back(traffic);
+      continue;
+    }
+    blocked_m.insert(blocked_m.end(), traffic->running.areas_m.begin(),
+                     traffic->running.areas_m.end());
+    blocked_m.push_back(traffic->running.final_area_m);
+  }
+  authority_->extend(options_.vehicle, holders, blocked_m);
+}
+
 std::optional<double> Controller::path_s_m_of(const Point& position_m) const {
   if (!path_s_m()) return std::nullopt;
   return tracker_.project(position_m, reach_m());
 }
 
 search::HorizonProblem Controller::problem_in(const road::Corridor& corridor) const {
+  const double end_s_m = authority_ ? authority_->end_s_m(tracker_.s_m().value())
+                                    : std::numeric_limits<double>::infinity();
   return problem_alone(step_.traffic, tracker_, corridor, reach_m(), subgraph().automaton(),
-                       options_);
+                       options_, end_s_m);
 }
 
 void Controller::update_drivable_area() {
@@ -243,6 +277,13 @@ std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
 search::HorizonProblem Controller::pose_problem() const {
   search::HorizonProblem problem = problem_in(entry_area() ? *entry_area() : route().corridor);
   problem.obstacles_m = obstacles_m();
+  if (authority_) {
+    if (const auto bar_m =
+            authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint)) {
+      problem.obstacles_m.resize(options_.horizon_steps);
+      for (auto& areas_m : problem.obstacles_m) areas_m.push_back(*bar_m);
+    }
+  }
   // The plan in force, continued, is a plan too, as long as it starts where planning starts.
   if (!in_force_->is_moved()) {
     problem.incumbent =

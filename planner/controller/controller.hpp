@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
+#include "planner/controller/authority.hpp"
 #include "planner/controller/candidate_search.hpp"
 #include "planner/controller/controller_options.hpp"
 #include "planner/controller/drivable_area.hpp"
@@ -191,6 +192,7 @@ class Controller {
   void report_plan_in_force(coordination::Report& report) const;
   [[nodiscard]] ConvexPolygon reachable_area_m() const;
   [[nodiscard]] bool may_plan() const;
+  void extend_authority();
   void respect_predecessors(std::span<const coordination::Prediction> received);
   void check_start();
   [[nodiscard]] double reach_m() const { return search_.reach_m(step_.traffic.next_trim); }
@@ -212,6 +214,7 @@ class Controller {
   DrivableArea drivable_area_;
   Neighbours neighbours_;
   std::optional<PlanInForce> in_force_;
+  std::optional<Authority> authority_;  ///< none: no right of way
   bool minimal_risk_stop_{false};
   Step step_;
   std::optional<search::HorizonProblem> former_problem_;  ///< for `warm_up`

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "planner/controller/plan_in_force.hpp"
 #include "planner/coordination/commit.hpp"
 #include "planner/coordination/priority.hpp"
+#include "planner/right_of_way/conflict_map.hpp"
 #include "planner/road/reference_points.hpp"
 #include "planner/search/horizon_problem.hpp"
 #include "planner/vehicle/lab_limits.hpp"
@@ -64,6 +66,8 @@ struct ControllerOptions {
   ControllerStrategies strategies{};
   search::SearchOptions search{};
   DeviationRules deviation{};
+  /// Right of way among all vehicles of the run (authority.hpp). Absent: none.
+  std::shared_ptr<const right_of_way::ConflictMap> conflicts{};
   /// Limits of the vehicle: a plan beyond them does not come into force. Absent: none.
   std::optional<vehicle::LabLimits> lab{};
 };

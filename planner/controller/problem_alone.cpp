@@ -31,12 +31,14 @@ std::vector<Point> contouring(const road::ReferencePath& path, std::span<const d
 search::HorizonProblem problem_alone(const coordination::Traffic& own, const RouteTracker& tracker,
                                      const road::Corridor& corridor, double reach_m,
                                      const automaton::UniversalAutomaton& automaton,
-                                     const ControllerOptions& options) {
+                                     const ControllerOptions& options, double end_s_m) {
   const double s_m = tracker.s_m().value();
   search::HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
   road::Reference reference = road::reference_points(
       tracker.route().path, s_m, automaton.trims[own.next_trim.index].speed_mps,
       options.reference_speed_mps, options.horizon_steps, automaton.step_s, options.reference_rule);
+  reference = road::reference_on(tracker.route().driving_line, tracker.route().path,
+                                 std::move(reference), end_s_m);
   problem.reference_m = std::move(reference.points_m);
   problem.reference_speed_mps = std::move(reference.speeds_mps);
   if (options.contouring_weight > 0.0) {

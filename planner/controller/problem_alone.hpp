@@ -11,12 +11,14 @@ namespace hlc::controller {
 /// The problem of a vehicle without all others: from the pose announced in its traffic, along its
 /// route from its place there on, within the corridor as far as it may get.
 /// @param reach_m  how far the vehicle can get in a horizon
+/// @param end_s_m  arc length of the end of its authority: no reference point lies beyond
 /// @pre the tracker has selected a route
 [[nodiscard]] search::HorizonProblem problem_alone(const coordination::Traffic& own,
                                                    const RouteTracker& tracker,
                                                    const road::Corridor& corridor, double reach_m,
                                                    const automaton::UniversalAutomaton& automaton,
-                                                   const ControllerOptions& options);
+                                                   const ControllerOptions& options,
+                                                   double end_s_m);
 
 /// The problem one step later, if all vehicles keep to their plans: from the vehicle's next pose,
 /// every step's reference and obstacles a step earlier, the last ones extrapolated. Without its

@@ -12,10 +12,17 @@ bool are_well_formed(const OccupiedAreas& areas, StepIndex first) {
          std::ranges::none_of(areas.areas_m, &ConvexPolygon::empty);
 }
 
+/// Not a number compares false.
+bool is_well_formed(const LaneClaim& claim) {
+  return claim.place_m >= 0.0 && claim.place_m <= kLargestCoordinate_m && claim.ahead_m >= 0.0 &&
+         claim.ahead_m <= kLargestCoordinate_m;
+}
+
 }  // namespace
 
 bool is_well_formed(const Traffic& traffic) {
-  return !traffic.reachable_area_m.empty() && are_well_formed(traffic.running, traffic.step);
+  return !traffic.reachable_area_m.empty() && are_well_formed(traffic.running, traffic.step) &&
+         (!traffic.claim || is_well_formed(*traffic.claim));
 }
 
 bool is_well_formed(const Prediction& prediction) {

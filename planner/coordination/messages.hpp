@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "planner/automaton/trim_id.hpp"
@@ -21,6 +23,15 @@ struct OccupiedAreas {
   [[nodiscard]] const ConvexPolygon& during(StepIndex step) const;
 };
 
+/// Which part of a route shared with others a vehicle holds: from its place to the end of its
+/// authority, beyond which no plan of it leads (right_of_way/grant.hpp).
+struct LaneClaim {
+  std::uint32_t route{};          ///< index in the run's conflict map
+  double place_m{};               ///< arc length of the planned place at t(k), in [0, length)
+  double ahead_m{};               ///< from there to the end, >= 0
+  std::uint32_t waiting_steps{};  ///< control steps for which the vehicle has stood
+};
+
 /// First message of step k: planned pose, and areas of the plan in force.
 struct Traffic {
   VehicleId vehicle;
@@ -34,6 +45,8 @@ struct Traffic {
   /// Vehicles from which the sender received nothing for several steps. A vehicle that is listed
   /// keeps its running plan: the sender may soon consider it a standing obstacle (missing.hpp).
   std::vector<VehicleId> silent;
+  /// As of the end of the last step. Absent: the run has no right of way.
+  std::optional<LaneClaim> claim{};
 };
 
 /// Second message of step k: the plan of this step, from t(k+1) on.
@@ -45,7 +58,8 @@ struct Prediction {
 };
 
 /// False for an invalid message: an empty area (the sender would be nowhere), or areas that do not
-/// begin at t(k) in traffic, at t(k+1) in a prediction. Such a message counts as not received.
+/// begin at t(k) in traffic, at t(k+1) in a prediction, or a claim that is no place. Such a message
+/// counts as not received.
 [[nodiscard]] bool is_well_formed(const Traffic& traffic);
 [[nodiscard]] bool is_well_formed(const Prediction& prediction);
 

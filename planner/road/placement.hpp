@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "planner/geometry/footprint.hpp"
 #include "planner/road/corridor.hpp"
+#include "planner/road/driving_line.hpp"
 #include "planner/road/reference_path.hpp"
 
 namespace hlc::road {
@@ -13,6 +15,8 @@ struct DrivableRoute {
   std::string name;
   ReferencePath path;
   Corridor corridor;
+  DrivingLine driving_line{};  ///< to be followed; arc lengths are always those of the path
+  std::uint32_t number{};      ///< in the run's conflict map, if it has one
 };
 
 /// Placement of a vehicle on a route.

@@ -35,4 +35,16 @@ Reference reference_points(const ReferencePath& path, double start_s_m, double c
   return reference;
 }
 
+Reference reference_on(const DrivingLine& line, const ReferencePath& path, Reference on_path,
+                       double end_s_m) {
+  for (std::size_t j = 0; j < on_path.s_m.size(); ++j) {
+    if (on_path.s_m[j] > end_s_m) {
+      on_path.s_m[j] = end_s_m;
+      on_path.speeds_mps[j] = 0.0;
+    }
+    on_path.points_m[j] = line.at(path, on_path.s_m[j]);
+  }
+  return on_path;
+}
+
 }  // namespace hlc::road

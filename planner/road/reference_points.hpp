@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "planner/road/driving_line.hpp"
 #include "planner/road/reference_path.hpp"
 
 namespace hlc::road {
@@ -37,5 +38,9 @@ struct Reference {
                                          double current_speed_mps, double reference_speed_mps,
                                          std::size_t horizon_steps, double step_s,
                                          ReferenceRule rule);
+
+/// The same not beyond `end_s_m`, and on the driving line beside the path.
+[[nodiscard]] Reference reference_on(const DrivingLine& line, const ReferencePath& path,
+                                     Reference on_path, double end_s_m);
 
 }  // namespace hlc::road

@@ -1,0 +1,79 @@
+#include "planner/controller/authority.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/geometry/footprint.hpp"
+#include "planner/right_of_way/grant.hpp"
+#include "planner/road/driving_line.hpp"
+
+namespace hlc::controller {
+namespace {
+
+/// A horizon at the lab's reference speed, and a quarter.
+constexpr double kLookAhead_m = 1.6;
+/// Nearer than this to its end an authority limits plans.
+constexpr double kOpen_m = 1.4;
+/// A vehicle that moves less in a step stands.
+constexpr double kStands_m = 0.002;
+/// Room between the front of a vehicle that stands at the end and the bar, for its heading.
+constexpr double kBehindEnd_m = 0.020;
+constexpr double kBarLength_m = 0.010;
+/// By how much the bar is wider than the footprint, in all.
+constexpr double kBarWider_m = 0.023;
+constexpr double kHalfChord_m = 0.02;
+
+}  // namespace
+
+Authority::Authority(std::shared_ptr<const right_of_way::ConflictMap> map) : map_(std::move(map)) {}
+
+void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
+                           const RouteTracker& tracker, double reach_m) {
+  const std::uint32_t route = tracker.route().number;
+  const double length_m = map_->length_m(route);
+  const auto counted_on = [length_m](double s_m, double from_m) {
+    return s_m + std::round((from_m - s_m) / length_m) * length_m;
+  };
+  const double place_m = tracker.project(in_force.pose_at(now).position_m(), reach_m);
+  const double plans_m =
+      counted_on(tracker.project(in_force.pose_at(in_force.end()).position_m(), reach_m), place_m) -
+      place_m;
+  const bool is_continued = has_place_ && claim_.route == route;
+  const double moved_m = is_continued ? std::remainder(place_m - claim_.place_m, length_m) : 0.0;
+  const double held_m = is_continued ? claim_.ahead_m - moved_m : 0.0;
+  const bool stands = is_continued && std::abs(moved_m) < kStands_m;
+  claim_ = {.route = route,
+            .place_m = place_m,
+            .ahead_m = std::max({held_m, plans_m, 0.0}),
+            .waiting_steps = stands ? claim_.waiting_steps + 1 : 0};
+  has_place_ = true;
+}
+
+void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
+                       std::span<const ConvexPolygon> blocked_m) {
+  std::vector<right_of_way::Holder> holders{{own, claim_}};
+  for (const coordination::Traffic* other : others) {
+    holders.push_back({other->vehicle, other->claim.value()});
+  }
+  claim_.ahead_m = right_of_way::grant(*map_, holders, blocked_m, kLookAhead_m).front();
+}
+
+double Authority::end_s_m(double s_m) const {
+  const double moved_m = std::remainder(s_m - claim_.place_m, map_->length_m(claim_.route));
+  return s_m + std::max(0.0, claim_.ahead_m - moved_m);
+}
+
+std::optional<ConvexPolygon> Authority::bar_m(const RouteTracker& tracker,
+                                              const Footprint& footprint) const {
+  if (claim_.ahead_m >= kOpen_m) return std::nullopt;
+  const road::ReferencePath& path = tracker.route().path;
+  const double s_m = claim_.place_m + claim_.ahead_m + footprint.length_m / 2.0 + kBehindEnd_m +
+                     kBarLength_m / 2.0;
+  const Point centre_m = path.at(s_m);
+  return footprint_area({kBarLength_m, footprint.width_m + kBarWider_m},
+                        {centre_m.x(), centre_m.y(),
+                         road::chord_heading_rad(path, s_m, kHalfChord_m)});
+}
+
+}  // namespace hlc::controller

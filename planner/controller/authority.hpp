@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/controller/route_tracker.hpp"
+#include "planner/coordination/messages.hpp"
+#include "planner/coordination/plan.hpp"
+#include "planner/right_of_way/conflict_map.hpp"
+
+namespace hlc::controller {
+
+/// How far one vehicle may go on the shared road, by the right of way among all (grant.hpp). A
+/// value; the map is shared.
+///
+/// The end of the authority is a limit of planning, on top of everything that keeps plans apart:
+/// whatever the others hold or have told, no plan meets another's. It is never in front of the end
+/// of the plan in force, so the plan in force, continued, always keeps to it.
+class Authority {
+ public:
+  explicit Authority(std::shared_ptr<const right_of_way::ConflictMap> map);
+
+  /// Starts a step: the vehicle's place, by its plan.
+  /// @param reach_m  as for RouteTracker::project
+  void begin_step(const coordination::Plan& in_force, StepIndex now, const RouteTracker& tracker,
+                  double reach_m);
+  /// For this step's traffic. @pre begin_step
+  [[nodiscard]] const coordination::LaneClaim& claim() const { return claim_; }
+
+  /// Takes what is granted to this vehicle, given what all others hold.
+  /// @param others     of which a claim on the same map has been received in this step
+  /// @param blocked_m  areas of others that hold nothing
+  void extend(VehicleId own, std::span<const coordination::Traffic* const> others,
+              std::span<const ConvexPolygon> blocked_m);
+
+  /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.
+  [[nodiscard]] double end_s_m(double s_m) const;
+  /// An area across the lane behind the end, to be kept clear of, if a plan may reach so far.
+  [[nodiscard]] std::optional<ConvexPolygon> bar_m(const RouteTracker& tracker,
+                                                   const Footprint& footprint) const;
+
+ private:
+  std::shared_ptr<const right_of_way::ConflictMap> map_;
+  coordination::LaneClaim claim_;
+  bool has_place_{};
+};
+
+}  // namespace hlc::controller

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "planner/coordination/messages.hpp"
+#include "planner/right_of_way/conflict_map.hpp"
+
+namespace hlc::right_of_way {
+
+/// What one vehicle holds: the cells of its route from its place to the end of its authority.
+/// Within it, the vehicle may stop anywhere.
+struct Holder {
+  VehicleId vehicle;
+  coordination::LaneClaim claim;
+};
+
+/// How far every vehicle's authority reaches after all that can be granted has been: the ends of
+/// `holders`, from their places [m], in the same order.
+///
+/// The vehicle that has waited longest comes first, then the smaller id. Its authority is extended
+/// cell by cell, up to `look_ahead_m` from its place, while the next cell overlaps no cell that
+/// another vehicle holds and nothing that is blocked; a stretch of conflict cells only as a whole,
+/// with the first cell behind it that is none. Behind a vehicle ahead it thereby ends at that one's
+/// present place, not where it is going to be.
+///
+/// A pure function of what all vehicles announced: controllers that received the same compute the
+/// same, without a further message. It never takes a cell from a vehicle, so whoever computes with
+/// less than all (and then takes nothing for itself) contradicts nobody.
+///
+/// What this is for: no vehicle ever stops in a cell that a vehicle of another lane needs. That no
+/// state without a way on is reached is measured (tests/benchmarks/right_of_way), not proven: two
+/// vehicles may still wait for each other around a circle of full lanes.
+/// @param blocked_m  areas of what holds no cells: vehicles off the road or without a controller
+[[nodiscard]] std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holders,
+                                        std::span<const ConvexPolygon> blocked_m,
+                                        double look_ahead_m);
+
+}  // namespace hlc::right_of_way
