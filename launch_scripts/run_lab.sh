@@ -9,7 +9,7 @@ usage() {
 usage: run_lab.sh [flags]      (every flag also as --name=value)
 Installs what is missing, builds, drives three cars for 30 s, prints the result table.
   --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
-                          (default paper_three_cars; also paper_red_alone, circle)
+                          (default paper_three_cars; also paper_red_alone, circle, lab_cars)
   --profile NAME          default: every plan optimal, safe under loss of messages between controllers
                           2022: the rules that produced the paper's numbers
   --engine NAME           search engine: branch_and_bound (default profile) or best_first (profile 2022); the same called
@@ -17,7 +17,9 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --subgraph NAME         of the automaton, instead of the scenario's
   --policy NAME           by which the cars change the subgraph themselves, or none, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map
-  --cars N                number of cars (scenario circle)
+  --cars N                number of cars (scenarios circle and lab_cars)
+  --seed N                of the draw of cars (scenario lab_cars) and of random routes, instead of the scenario's
+  --routes random         every car takes random turns forever, instead of the scenario's routes
   --steps N               control steps of 0.2 s, instead of the scenario's
   --simulated_time BOOL   true: logical time, as fast as possible (default); false: real time
   --noise_seed N          measurement noise of the simulated cars from this seed (default: none)
@@ -43,7 +45,8 @@ TEXT
 
 fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 
-scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" steps=""
+scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
+routes="" steps=""
 simulated_time=true noise_seed="" gains_scale="" on_death=stop transport=loopback dds_domain="" out="" preset=release
 bin="" build=true
 startup_timeout_s=20
@@ -63,8 +66,8 @@ while (($#)); do
   [[ $name != dump-problems ]] || name=dump_problems
   [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a new or an empty folder"
   case "$name" in
-    scenario | profile | engine | dump_problems | subgraph | policy | map | cars | steps | simulated_time | \
-      noise_seed | gains_scale | on_death | transport | dds_domain | out | preset | bin | \
+    scenario | profile | engine | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
+      simulated_time | noise_seed | gains_scale | on_death | transport | dds_domain | out | preset | bin | \
       startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
@@ -75,7 +78,7 @@ done
   fail "--on_death = $on_death, must be stop, or in real time continue"
 [[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, must be one of loopback, lab"
 whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a whole number"; }
-for name in cars steps noise_seed dds_domain startup_timeout_s; do whole_number "$name" "${!name}"; done
+for name in cars seed steps noise_seed dds_domain startup_timeout_s; do whole_number "$name" "${!name}"; done
 in_range() { # flag, value, from, to
   [[ -z $2 ]] || ((10#$2 >= $3 && 10#$2 <= $4)) || fail "--$1 = $2, must be in $3 ... $4"
 }
@@ -83,6 +86,7 @@ in_range steps "$steps" 1 10000
 in_range startup_timeout_s "$startup_timeout_s" 1 3000
 in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 [[ -z $noise_seed ]] || noise_seed=$((10#$noise_seed)) # 010 is ten
+[[ -z $seed ]] || seed=$((10#$seed))
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 case "$preset" in
   release | debug | asan | tsan) ;;
@@ -104,6 +108,8 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $policy ]] || choices+=(--policy "$policy")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
+[[ -z $seed ]] || choices+=(--seed "$seed")
+[[ -z $routes ]] || choices+=(--routes "$routes")
 check=("${choices[@]}")
 [[ -z $steps ]] || check+=(--steps "$steps")
 starts=$("$bin/show_scenario" "${check[@]}" --starts) || exit 2
@@ -194,6 +200,8 @@ subgraph: $(quoted "$subgraph")
 policy: $(quoted "$policy")
 map: $(quoted "$map")
 cars: ${cars:-null}
+seed: ${seed:-null}
+routes: $(quoted "$routes")
 steps: $steps
 simulated_time: $simulated_time
 noise_seed: ${noise_seed:-null}

@@ -15,7 +15,9 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --subgraph NAME         instead of the scenario's
   --policy NAME           by which the car changes the subgraph itself, or none, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map
-  --cars N                number of cars (scenarios on a circle)
+  --cars N                number of cars (scenarios on a circle, or that draw their cars)
+  --seed N                of drawn cars and of random routes, instead of the scenario's
+  --routes random         random turns forever, instead of the scenario's routes
   --simulated_time BOOL   true: logical time (default), false: real time
   --transport NAME        loopback (default) or lab
   --dds_domain N          lab domain (default 1). Several vehicles share it; with the transport loopback it must
@@ -42,13 +44,13 @@ TEXT
 
 fail() { echo "vehicle.sh: $1" >&2; exit 2; }
 
-id="" scenario="" profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars=""
+id="" scenario="" profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" seed="" routes=""
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
 noise_seed="" gains_scale="" on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only=""
-kept_flags=(id scenario profile engine dump_problems subgraph policy map cars simulated_time transport discovery_mode
-  discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
+kept_flags=(id scenario profile engine dump_problems subgraph policy map cars seed routes simulated_time transport
+  discovery_mode discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
   controller_domain pose noise_seed gains_scale on_death bin startup_timeout_s)
 take_flags() {
   local name value
@@ -85,7 +87,7 @@ esac
 [[ $id =~ ^[0-9]{1,2}$ && $id -ge 1 && $id -le 30 ]] || fail "--id = $id, must be in 1 ... 30"
 id=$((10#$id))
 whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a whole number"; }
-for name in cars dds_domain middleware_domain controller_domain noise_seed startup_timeout_s; do
+for name in cars seed dds_domain middleware_domain controller_domain noise_seed startup_timeout_s; do
   whole_number "$name" "${!name}"
 done
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
@@ -125,6 +127,8 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $policy ]] || choices+=(--policy "$policy")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
+[[ -z $seed ]] || choices+=(--seed "$seed")
+[[ -z $routes ]] || choices+=(--routes "$routes")
 record=$out/vehicle_$id.csv
 appends=() # a restarted car keeps its last pose, and its record continues
 if [[ $only == vehicle && -s $record ]]; then

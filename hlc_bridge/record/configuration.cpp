@@ -48,15 +48,13 @@ void keep_configuration(const fs::path& run_folder, const std::vector<fs::path>&
 std::string flags_yaml(const scenario::ScenarioChoices& choices) {
   const auto path = [](const fs::path& file) { return fs::absolute(file).string(); };
   const auto map = choices.map_file ? std::optional(path(*choices.map_file)) : std::nullopt;
-  const auto number = [](const std::optional<std::size_t>& value) {
-    return value ? fmt::to_string(*value) : "null";
-  };
+  const auto number = [](const auto& value) { return value ? fmt::to_string(*value) : "null"; };
   return fmt::format(
       "scenario: {}\nprofile: {}\nengine: {}\nsubgraph: {}\npolicy: {}\nmap: {}\ncars: {}\n"
-      "steps: {}\n",
+      "seed: {}\nroutes: {}\nsteps: {}\n",
       text_of(path(choices.file)), text_of(choices.profile), text_of(choices.engine),
       text_of(choices.subgraph), text_of(choices.policy), text_of(map), number(choices.cars),
-      number(choices.steps));
+      number(choices.seed), text_of(choices.routes), number(choices.steps));
 }
 
 scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
@@ -73,6 +71,8 @@ scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
   choices.policy = text_or_null(flags, "policy");
   if (const auto map = text_or_null(flags, "map")) choices.map_file = copy_of(run_folder, *map);
   if (flags.is_value("cars")) choices.cars = flags.required<std::size_t>("cars");
+  if (flags.is_value("seed")) choices.seed = flags.required<std::size_t>("seed");
+  choices.routes = text_or_null(flags, "routes");
   return choices;
 }
 

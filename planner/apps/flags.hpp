@@ -92,7 +92,7 @@ inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
   return allowing(is_good, "in " + shown, shown);
 }
 
-/// The same for every finite number.
+/// The same forevery finite number.
 inline CLI::Validator finite() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return within(-kInfinity, kInfinity);
@@ -202,8 +202,14 @@ inline void declare_scenario_flags(CLI::App& app, scenario::ScenarioChoices& cho
                  "by which the controllers change the subgraph themselves, or none (default: the "
                  "scenario's)");
   app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
-  app.add_option("--cars", choices.cars, "number of cars (scenarios on a circle)")
+  app.add_option("--cars", choices.cars,
+                 "number of cars (scenarios on a circle, or that draw their cars)")
       ->check(whole(1, 30));
+  app.add_option("--seed", choices.seed, "of drawn cars and random routes")
+      ->check(whole(0, scenario::kMaxSeed));
+  app.add_option("--routes", choices.routes,
+                 "random: every car takes random turns forever, instead of the scenario's routes")
+      ->check(among({scenario::kRandomRoutes}));
 }
 
 }  // namespace hlc::apps

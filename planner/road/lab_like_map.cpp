@@ -2,21 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <iterator>
 #include <numbers>
 #include <utility>
 
-#include "planner/road/curvature_curve.hpp"
+#include "planner/road/lane_lines.hpp"
 
 namespace hlc::road {
 namespace {
 
-using Knots = std::vector<CurvatureCurve::Knot>;
-using Line = std::vector<Pose>;  // the middle of a lane
-
-constexpr double kLaneWidth_m = 0.150;
-constexpr double kSpacing_m = 0.05;
 constexpr double kLeft_m = kLaneWidth_m;
 constexpr double kRight_m = -kLaneWidth_m;
 
@@ -54,114 +47,11 @@ Knots joined(Knots first, const Knots& second) {
 /// One and a half rounds of a circuit whose second half mirrors the first.
 Knots mirrored_circuit(const Knots& half) { return joined(joined(half, reversed(half)), half); }
 
-Point direction(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
-
-Pose shifted(const Pose& pose, double left_m) {
-  const Point along = direction(pose.heading_rad);
-  return {.x_m = pose.x_m - left_m * along.y(),
-          .y_m = pose.y_m + left_m * along.x(),
-          .heading_rad = pose.heading_rad};
-}
-
-/// Turned by pi about the centre of the map.
-Pose turned(const Pose& pose) {
-  return {.x_m = 4.5 - pose.x_m,
-          .y_m = 4.0 - pose.y_m,
-          .heading_rad = pose.heading_rad + std::numbers::pi};
-}
-
-/// The curve from `from_s_m` to `to_s_m`.
-Line sampled(const CurvatureCurve& curve, double from_s_m, double to_s_m) {
-  const int intervals = static_cast<int>(std::ceil((to_s_m - from_s_m) / kSpacing_m));
-  Line line;
-  for (int k = 0; k <= intervals; ++k) {
-    line.push_back(curve.at(from_s_m + (to_s_m - from_s_m) * k / intervals));
-  }
-  return line;
-}
-
-/// The line, bent so that it begins at pose `begin` and ends at pose `end`: a cubic Hermite
-/// polynomial adds the missing position and direction. @pre points evenly spaced
-Line bent(Line line, const Pose& begin, const Pose& end) {
-  const double intervals = static_cast<double>(line.size() - 1);
-  const double length = intervals * (line[1].position_m() - line[0].position_m()).norm();
-  const auto lack = [&](const Pose& target, const Pose& pose) {
-    return std::pair<Point, Point>(
-        target.position_m() - pose.position_m(),
-        length * (direction(target.heading_rad) - direction(pose.heading_rad)));
-  };
-  const auto [d0, m0] = lack(begin, line.front());
-  const auto [d1, m1] = lack(end, line.back());
-  for (std::size_t k = 1; k + 1 < line.size(); ++k) {
-    const double t = static_cast<double>(k) / intervals;
-    const Point position = line[k].position_m() + (2.0 * t * t * t - 3.0 * t * t + 1.0) * d0 +
-                           (t * t * t - 2.0 * t * t + t) * m0 +
-                           (3.0 * t * t - 2.0 * t * t * t) * d1 + (t * t * t - t * t) * m1;
-    const Point along = direction(line[k].heading_rad) +
-                        ((6.0 * t * t - 6.0 * t) * (d0 - d1) + (3.0 * t * t - 4.0 * t + 1.0) * m0 +
-                         (3.0 * t * t - 2.0 * t) * m1) /
-                            length;
-    line[k] = {
-        .x_m = position.x(), .y_m = position.y(), .heading_rad = std::atan2(along.y(), along.x())};
-  }
-  line.front() = begin;
-  line.back() = end;
-  return line;
-}
-
-Line stretch(const CurvatureCurve& curve, double from_s_m, double to_s_m, const Pose& begin,
-             const Pose& end) {
-  return bent(sampled(curve, from_s_m, to_s_m), begin, end);
-}
-
-/// The mirror image about the vertical (`x`) or horizontal (`y`) centre line of the map, driven in
-/// the opposite direction, so that driving stays clockwise.
-Line mirrored_x(Line line) {
-  std::reverse(line.begin(), line.end());
-  for (Pose& pose : line) {
-    pose = {.x_m = 4.5 - pose.x_m, .y_m = pose.y_m, .heading_rad = -pose.heading_rad};
-  }
-  return line;
-}
-Line mirrored_y(Line line) {
-  Line turned_line = mirrored_x(std::move(line));
-  for (Pose& pose : turned_line) {
-    pose = turned(pose);
-  }
-  return turned_line;
-}
-
 /// Adds the lane whose middle runs `left_m` to the left of `line`; ids count from 1.
 LaneletId add_lane(LaneletMap& map, const Line& line, double left_m = 0.0) {
-  Lanelet lanelet;
-  lanelet.id = static_cast<LaneletId>(map.lanelets.size()) + 1;
-  for (const Pose& pose : line) {
-    lanelet.left_m.push_back(shifted(pose, left_m + kLaneWidth_m / 2.0).position_m());
-    lanelet.right_m.push_back(shifted(pose, left_m - kLaneWidth_m / 2.0).position_m());
-  }
-  const LaneletId id = lanelet.id;
-  map.lanelets.emplace(id, std::move(lanelet));
+  const auto id = static_cast<LaneletId>(map.lanelets.size()) + 1;
+  map.lanelets.emplace(id, lane_along(line, id, left_m));
   return id;
-}
-
-bool same(const Point& a, const Point& b) { return (a - b).norm() < 1e-6; }
-
-/// Finds successors, predecessors and neighbours from the bounds.
-void link(LaneletMap& map) {
-  for (auto& [id, lanelet] : map.lanelets) {
-    for (auto& [other_id, other] : map.lanelets) {
-      if (same(lanelet.left_m.back(), other.left_m.front()) &&
-          same(lanelet.right_m.back(), other.right_m.front())) {
-        lanelet.successors.push_back(other_id);
-        other.predecessors.push_back(id);
-      }
-      if (std::equal(lanelet.left_m.begin(), lanelet.left_m.end(), other.right_m.begin(),
-                     other.right_m.end(), same)) {
-        lanelet.adjacent_left = {.id = other_id, .same_direction = true};
-        other.adjacent_right = {.id = id, .same_direction = true};
-      }
-    }
-  }
 }
 
 /// Red is cut where another circuit joins or leaves its lane or the lane beside it.
@@ -180,7 +70,7 @@ RedCircuit add_red_circuit(LaneletMap& map) {
   cut.back() = turned(cut.front());
   for (std::size_t i = 0; i < 5; ++i) {
     line[i] = stretch(red, s_m[i], s_m[i + 1], cut[i], cut[i + 1]);
-    std::transform(line[i].begin(), line[i].end(), std::back_inserter(line[i + 5]), turned);
+    line[i + 5] = turned(line[i]);
   }
   std::transform(line.begin(), line.end(), lane.begin(),
                  [&](const Line& one) { return add_lane(map, one); });

@@ -12,13 +12,29 @@ double shortest(double difference_m, double length_m) {
   return difference_m - length_m * std::round(difference_m / length_m);
 }
 
+/// The projection on the whole path; of the places of a lane that the path drives more than once
+/// the first.
+ReferencePath::Projection first_projection(const ReferencePath& path, const Point& position_m) {
+  constexpr double kWindow_m = 0.2;
+  const ReferencePath::Projection nearest = path.project(position_m);
+  for (double s_m = 0.0; s_m < nearest.s_m - kWindow_m; s_m += kWindow_m) {
+    const ReferencePath::Projection one =
+        path.project_within(position_m, s_m - kWindow_m, s_m + kWindow_m);
+    if (one.distance_m < nearest.distance_m + kSameLane_m &&
+        drives_again(path, one.s_m, nearest.s_m)) {
+      return path.project_within(position_m, one.s_m - kWindow_m, one.s_m + kWindow_m);
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 Progress progress_along(const ReferencePath& path, std::span<const Point> positions_m) {
   Progress progress;
   for (std::size_t i = 0; i < positions_m.size(); ++i) {
     if (i == 0) {
-      const ReferencePath::Projection first = path.project(positions_m[0]);
+      const ReferencePath::Projection first = first_projection(path, positions_m[0]);
       progress.s_m.push_back(first.s_m);
       progress.distance_m.push_back(first.distance_m);
       continue;

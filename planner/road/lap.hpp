@@ -15,9 +15,10 @@ struct Progress {
   std::vector<double> distance_m;  ///< to the path
 };
 
-/// Projects the positions one after another. The first is projected on the whole path, each
-/// following one near the place of its predecessor (within twice their distance and 0.1 m on either
-/// side), so that another strand of the path that passes close by is never taken.
+/// Projects the positions one after another. The first is projected on the whole path (where
+/// that drives a lane more than once, on the first of these places), each following one near the
+/// place of its predecessor (within twice their distance and 0.1 m on either side), so that another
+/// strand of the path that passes close by is never taken.
 ///
 /// Arc length grows faster than the position moves where the path's curvature kappa turns towards a
 /// position at distance e, by 1 / (1 - kappa e): twice covers e = 0.15 m at kappa = 3.3 1/m.

@@ -120,11 +120,24 @@ void look_beyond(const DrivableRoute& route, const std::vector<Point>& outline_m
   }
 }
 
-/// The best of the nearest points of all segments of the path.
-Placement best_place(const ReferencePath& path, const Pose& pose) {
+/// True if the place counts instead of the best one so far: if it is better, and not only a little
+/// where the path drives the same lane again.
+bool replaces(const Placement& place, const Placement& best, const ReferencePath& path) {
+  const double gain_m = placement_cost_m(best) - placement_cost_m(place);
+  if (gain_m <= 0.0) return false;
+  return gain_m > kSameLane_m || !drives_again(path, best.s_m, place.s_m);
+}
+
+/// The best of the nearest points of all segments of the path, in their order from
+/// `from_s_m` on.
+Placement best_place(const ReferencePath& path, const Pose& pose, double from_s_m) {
   Placement best{.distance_m = kInfinity};
   const std::vector<double>& joints = path.joints_s_m();
-  for (std::size_t i = 0; i + 1 < joints.size(); ++i) {
+  const std::size_t num_segments = joints.size() - 1;
+  const auto first = static_cast<std::size_t>(
+      std::upper_bound(joints.begin() + 1, joints.end() - 1, from_s_m) - joints.begin() - 1);
+  for (std::size_t k = 0; k < num_segments; ++k) {
+    const std::size_t i = (first + k) % num_segments;
     // Most segments are too far away, in any direction: none of their points is nearer than the
     // first by more than the length.
     const double from_first_m = (pose.position_m() - path.points_m()[i]).norm();
@@ -134,7 +147,7 @@ Placement best_place(const ReferencePath& path, const Pose& pose) {
     const Placement one{.s_m = projection.s_m,
                         .distance_m = projection.distance_m,
                         .turned_rad = wrap_angle(pose.heading_rad - heading_rad)};
-    if (placement_cost_m(one) < placement_cost_m(best)) best = one;
+    if (replaces(one, best, path)) best = one;
   }
   return best;
 }
@@ -153,8 +166,9 @@ bool fits(const Placement& placement, const DrivableRoute& route) {
          std::abs(placement.turned_rad) <= kFitsTurned_rad;
 }
 
-Placement placement_on(const DrivableRoute& route, const Pose& pose, const Footprint& footprint) {
-  Placement placement = best_place(route.path, pose);
+Placement placement_on(const DrivableRoute& route, const Pose& pose, const Footprint& footprint,
+                       double from_s_m) {
+  Placement placement = best_place(route.path, pose, from_s_m);
   const ConvexPolygon area = footprint_area(footprint, pose);
   look_beyond(route, outline(area), placement);
   if (!route.corridor.bounds().empty()) {

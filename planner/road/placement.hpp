@@ -49,10 +49,12 @@ inline constexpr double kFitsTurned_rad = 0.6;
 ///     distance + 0.1 m * |turned|,
 ///
 /// the mean of the errors of position and front. Where two strands cross or run side by side in
-/// opposite directions it is the one in the vehicle's direction.
+/// opposite directions it is the one in the vehicle's direction. Where the path drives a lane more
+/// than once (reference_path.hpp), it is the first one from `from_s_m` on, though another one may
+/// be better by up to kSameLane_m.
 /// @param pose  the planner's (heading, not yaw)
 [[nodiscard]] Placement placement_on(const DrivableRoute& route, const Pose& pose,
-                                     const Footprint& footprint);
+                                     const Footprint& footprint, double from_s_m = 0.0);
 
 /// The measure above for comparing places [m].
 [[nodiscard]] double placement_cost_m(const Placement& placement);

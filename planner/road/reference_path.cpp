@@ -125,4 +125,16 @@ ReferencePath::Projection ReferencePath::project_within(const Point& point_m, do
   return best;
 }
 
+bool drives_again(const ReferencePath& path, double first_s_m, double second_s_m) {
+  constexpr double kApart_m = 0.4;
+  constexpr double kSameHeading_rad = 0.3;
+  const double ahead_m = std::abs(first_s_m - second_s_m);
+  const double apart_m = path.is_closed() ? std::min(ahead_m, path.length_m() - ahead_m) : ahead_m;
+  if (apart_m <= kApart_m) return false;
+  const double turned_rad =
+      wrap_angle(path.heading_rad_at(first_s_m) - path.heading_rad_at(second_s_m));
+  return std::abs(turned_rad) < kSameHeading_rad &&
+         (path.at(first_s_m) - path.at(second_s_m)).norm() < kSameLane_m;
+}
+
 }  // namespace hlc::road

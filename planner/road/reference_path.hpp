@@ -51,4 +51,13 @@ class ReferencePath {
   std::vector<double> s_m_;
 };
 
+/// Distance of two places on a path within which they count as one place of a lane that the path
+/// drives more than once, as a random tour does: the lanes of these places are the same or have
+/// just begun to part.
+inline constexpr double kSameLane_m = 0.01;
+
+/// True if the two places lie on one place of a lane, in the same direction, but more than 0.4 m
+/// apart along the path. @pre both arc lengths are on the path
+[[nodiscard]] bool drives_again(const ReferencePath& path, double first_s_m, double second_s_m);
+
 }  // namespace hlc::road

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "planner/controller/controller.hpp"
 #include "planner/policy/policy_settings.hpp"
 #include "planner/road/corridor.hpp"
+#include "planner/road/lanelet_map.hpp"
 #include "planner/road/placement.hpp"
 #include "planner/road/reference_path.hpp"
 #include "planner/scenario/profile.hpp"
@@ -21,9 +23,10 @@ namespace hlc::scenario {
 struct ScenarioVehicle {
   VehicleId id;
   std::string name;
-  Pose start;                ///< planned pose at the start, standing
-  double start_s_m{};        ///< arc length of its place on the path
-  road::ReferencePath path;  ///< closed: a lap can be driven
+  Pose start;                       ///< planned pose at the start, standing
+  double start_s_m{};               ///< arc length of its place on the path
+  road::LaneletId start_lanelet{};  ///< in which the start lies; 0 without lanes
+  road::ReferencePath path;         ///< closed: a lap can be driven
   road::Corridor corridor;
 };
 
@@ -50,9 +53,13 @@ struct Scenario {
   policy::ReconfigurationSettings reconfiguration;
   std::shared_ptr<const automaton::Subgraph> subgraph;
   std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
-  /// For vehicles that the scenario does not name: its routes by name, or on a circle those of its
-  /// cars.
+  /// For vehicles that the scenario does not name: its routes by name, or on a circle and with
+  /// random routes those of its cars.
   std::vector<road::DrivableRoute> routes;
+  /// What the cars of a scenario with `draw` are drawn from; otherwise empty.
+  std::vector<ScenarioVehicle> candidates;
+  std::shared_ptr<const road::LaneletMap> random_routes_on;  ///< none: no random routes
+  std::uint64_t seed{};  ///< of the drawn cars and the random routes
 };
 
 /// Choices of the command line instead of the file's.
@@ -64,9 +71,13 @@ struct ScenarioChoices {
   std::optional<std::string> policy;  ///< kNoPolicy for none; default: the scenario's
   std::optional<std::filesystem::path> map_file;
   std::optional<std::size_t> steps;
-  std::optional<std::size_t> cars;  ///< scenarios on a circle only
+  std::optional<std::size_t> cars;    ///< scenarios on a circle or with `draw` only
+  std::optional<std::uint64_t> seed;  ///< scenarios with `draw` or random routes only
+  std::optional<std::string> routes;  ///< kRandomRoutes; default: the scenario's
 };
 
+inline constexpr char kRandomRoutes[] = "random";
+inline constexpr std::uint64_t kMaxSeed = 1'000'000'000;
 /// Most cars of a scenario on a circle.
 inline constexpr std::size_t kMaxCarsOnCircle = 20;
 

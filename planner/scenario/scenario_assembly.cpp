@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include "planner/automaton/lab_check.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/policy/speed_zones.hpp"
-#include "planner/road/route.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/policy_file.hpp"
+#include "planner/scenario/scenario_vehicles.hpp"
 #include "planner/scenario/search_values.hpp"
-#include "planner/scenario/starts.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc::scenario {
@@ -94,98 +91,6 @@ void choose_policy(const ScenarioValues& values, const ScenarioChoices& choices,
   }
 }
 
-road::Route build_route_of(const RouteValues& values, const road::LaneletMap& map) {
-  const auto lanelets = values.lanelets.find(map.benchmark_id);
-  if (lanelets == values.lanelets.end()) {
-    values.node.fail("lanelets", "a list for the map with benchmarkID " + map.benchmark_id);
-  }
-  const Node by_map = values.node.map("lanelets");
-  for (std::size_t i = 0; i < lanelets->second.size(); ++i) {
-    if (map.lanelets.contains(lanelets->second[i])) continue;
-    by_map.list(map.benchmark_id)[i].fail("a lanelet of the map " + map.benchmark_id);
-  }
-  try {
-    return road::build_route(map, lanelets->second, values.is_closed);
-  } catch (const std::runtime_error& error) {
-    by_map.fail(map.benchmark_id, fmt::format("a route that can be driven: {}", error.what()));
-  }
-}
-
-ScenarioVehicle place_vehicle(const VehicleValues& values, const road::Route& route) {
-  // A range that bounds every arc length: only the route's own bounds hold.
-  static_cast<void>(values.node.required<double>("start_m", between(0.0, route.path.length_m())));
-  const double heading_rad = route.path.heading_rad_at(values.start_m);
-  const Point position = route.path.at(values.start_m) +
-                         values.start_left_m * Point(-std::sin(heading_rad), std::cos(heading_rad));
-  return {.id = values.id,
-          .name = values.name,
-          .start = {position.x(), position.y(), wrap_angle(heading_rad + values.start_turned_rad)},
-          .start_s_m = values.start_m,
-          .path = route.path,
-          .corridor = route.corridor};
-}
-
-void add_vehicles_on_routes(const ScenarioValues& values, const road::LaneletMap& map,
-                            Scenario& scenario) {
-  std::map<std::string, road::Route> routes;
-  for (const RouteValues& one : values.routes) routes.emplace(one.name, build_route_of(one, map));
-  for (const auto& [name, route] : routes) {
-    scenario.routes.push_back({.name = name, .path = route.path, .corridor = route.corridor});
-  }
-  for (const VehicleValues& one : values.vehicles) {
-    const auto route = routes.find(one.route);
-    if (route == routes.end()) one.node.fail("route", "the name of an entry of `routes`");
-    scenario.vehicles.push_back(place_vehicle(one, route->second));
-  }
-}
-
-/// Cars evenly on a circle, each on the straight line to the opposite point; no lanes.
-void add_cars_on_circle(const CircleValues& circle, std::size_t cars, Scenario& scenario) {
-  if (cars < 1 || cars > kMaxCarsOnCircle) {
-    throw std::invalid_argument(
-        fmt::format("--cars = {}, must be in 1 ... {}", cars, kMaxCarsOnCircle));
-  }
-  for (std::size_t i = 0; i < cars; ++i) {
-    const double angle =
-        2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(cars);
-    const Point offset = circle.radius_m * Point(std::cos(angle), std::sin(angle));
-    const Point start = circle.centre_m + offset;
-    scenario.vehicles.push_back(
-        {.id = {static_cast<std::uint8_t>(i + 1)},
-         .name = fmt::format("car {}", i + 1),
-         .start = {start.x(), start.y(), wrap_angle(angle + std::numbers::pi)},
-         .start_s_m = 0.0,
-         .path = road::ReferencePath({start, circle.centre_m - offset}, false),
-         .corridor = {}});
-    const ScenarioVehicle& car = scenario.vehicles.back();
-    scenario.routes.push_back({.name = car.name, .path = car.path, .corridor = car.corridor});
-  }
-}
-
-void add_vehicles(const ScenarioValues& values, const ScenarioInputs& inputs,
-                  const ScenarioChoices& choices, Scenario& scenario) {
-  if (values.circle) {
-    add_cars_on_circle(*values.circle, choices.cars.value_or(values.circle->cars), scenario);
-    return;
-  }
-  if (choices.cars) {
-    throw std::invalid_argument(fmt::format(
-        "--cars: {} has named vehicles; must be a scenario with `circle`", choices.file.string()));
-  }
-  add_vehicles_on_routes(values, inputs.map.value(), scenario);
-}
-
-void check_starts(const ScenarioValues& values, const Scenario& scenario) {
-  const auto overlap = overlapping_starts(scenario);
-  if (!overlap) return;
-  const auto [first, second] = *overlap;
-  const std::string allowed = fmt::format(
-      "start poses whose footprints with margin do not overlap: those of vehicles {} and {} do",
-      scenario.vehicles[first].id.value, scenario.vehicles[second].id.value);
-  if (values.circle) values.node.fail("circle", allowed);
-  values.vehicles[second].node.fail("start_m", allowed);
-}
-
 /// A zone that no route passes is a mistake: its limit would never hold.
 void check_zones(const Node& node, const Scenario& scenario) {
   for (const auto& [name, settings] : scenario.policies) {
@@ -225,7 +130,6 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   check_lab(scenario);
   choose_policy(values, choices, scenario);
   add_vehicles(values, inputs, choices, scenario);
-  check_starts(values, scenario);
   check_zones(values.node, scenario);
   std::ranges::sort(scenario.vehicles, {}, &ScenarioVehicle::id);
   return scenario;

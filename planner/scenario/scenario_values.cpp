@@ -22,38 +22,64 @@ std::filesystem::path beside(const std::filesystem::path& file, const std::strin
   return (file.parent_path() / path).lexically_normal();
 }
 
-std::vector<RouteValues> parse_routes(const Node& scenario) {
-  std::vector<RouteValues> routes;
-  for (const Node& node : scenario.list("routes")) {
-    RouteValues route{.name = node.required<std::string>("name"),
-                      .is_closed = node.optional<bool>("closed", true),
-                      .lanelets = {},
-                      .node = node};
-    const Node by_map = node.map("lanelets");
-    for (const std::string& benchmark_id : by_map.keys()) {
-      std::vector<road::LaneletId>& lanelets = route.lanelets[benchmark_id];
-      for (const Node& lanelet : by_map.list(benchmark_id)) {
-        lanelets.push_back(lanelet.as<int>(at_least(1.0)));
-      }
-    }
-    node.check_no_unknown_keys();
-    routes.push_back(std::move(route));
+/// The route of the name, from another one of its lanelets on.
+RouteValues begun_elsewhere(const std::vector<RouteValues>& routes, const Node& node) {
+  const auto of = std::ranges::find(routes, node.required<std::string>("of"), &RouteValues::name);
+  if (of == routes.end() || !of->is_closed) node.fail("of", "the name of a closed route above");
+  const int from = node.required<int>("from");
+  RouteValues route = *of;
+  for (auto& [benchmark_id, lanelets] : route.lanelets) {
+    const auto begin = std::ranges::find(lanelets, from);
+    if (begin == lanelets.end()) node.fail("from", "a lanelet of " + of->name);
+    std::ranges::rotate(lanelets, begin);
   }
-  return routes;
+  route.begins_elsewhere = true;
+  route.node = of->node;
+  return route;
 }
 
-std::vector<VehicleValues> parse_vehicles(const Node& scenario) {
-  std::vector<VehicleValues> vehicles;
+RouteValues parse_route(const std::vector<RouteValues>& above, const Node& node) {
+  RouteValues route{.node = node};
+  if (node.has("of")) {
+    route = begun_elsewhere(above, node);
+  } else {
+    route.is_closed = node.optional<bool>("closed", true);
+    const Node by_map = node.map("lanelets");
+    for (const std::string& benchmark_id : by_map.keys()) {
+      for (const Node& lanelet : by_map.list(benchmark_id)) {
+        route.lanelets[benchmark_id].push_back(lanelet.as<int>(at_least(1.0)));
+      }
+    }
+  }
+  route.name = node.required<std::string>("name");
+  node.check_no_unknown_keys();
+  return route;
+}
+
+void parse_routes(const Node& scenario, ScenarioValues& values) {
+  values.has_random_routes = scenario.is_value("routes");
+  if (values.has_random_routes) {
+    static_cast<void>(scenario.required<std::string>("routes", one_of({kRandomRoutes})));
+    return;
+  }
+  for (const Node& node : scenario.list("routes")) {
+    values.routes.push_back(parse_route(values.routes, node));
+  }
+}
+
+void parse_vehicles(const Node& scenario, ScenarioValues& values) {
   for (const Node& node : scenario.list("vehicles")) {
     const VehicleId id{
         static_cast<std::uint8_t>(node.required<std::size_t>("id", between(1.0, kMaxVehicleId)))};
-    if (std::ranges::find(vehicles, id, &VehicleValues::id) != vehicles.end()) {
+    if (std::ranges::find(values.vehicles, id, &VehicleValues::id) != values.vehicles.end()) {
       node.fail("id", "unique");
     }
-    vehicles.push_back(
+    const bool is_random = values.has_random_routes;
+    values.vehicles.push_back(
         {.id = id,
          .name = node.optional<std::string>("name", fmt::format("vehicle {}", id.value)),
-         .route = node.required<std::string>("route"),
+         .route = is_random ? "" : node.required<std::string>("route"),
+         .lanelet = is_random ? node.required<int>("lanelet", at_least(1.0)) : 0,
          .start_m = node.required<double>("start_m"),
          .start_left_m =
              node.optional<double>("start_left_m", 0.0, between(-kMostBeside_m, kMostBeside_m)),
@@ -62,8 +88,16 @@ std::vector<VehicleValues> parse_vehicles(const Node& scenario) {
          .node = node});
     node.check_no_unknown_keys();
   }
-  if (vehicles.empty()) scenario.fail("vehicles", "a list with at least one vehicle");
-  return vehicles;
+  if (values.vehicles.empty()) scenario.fail("vehicles", "a list with at least one vehicle");
+}
+
+DrawValues parse_draw(const Node& node) {
+  DrawValues draw{.cars = node.required<std::size_t>("cars", between(1.0, kMaxVehicleId)),
+                  .routes = {},
+                  .node = node};
+  for (const Node& route : node.list("routes")) draw.routes.push_back(route.as<std::string>());
+  node.check_no_unknown_keys();
+  return draw;
 }
 
 CircleValues parse_circle(const Node& node) {
@@ -99,8 +133,13 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
     values.circle = parse_circle(node.map("circle"));
   } else {
     if (node.has("map")) values.map_file = beside(path, node.required<std::string>("map"));
-    values.routes = parse_routes(node);
-    values.vehicles = parse_vehicles(node);
+    parse_routes(node, values);
+    if (node.has("draw")) {
+      values.draw = parse_draw(node.map("draw"));
+    } else {
+      parse_vehicles(node, values);
+    }
+    values.seed = node.optional<std::size_t>("seed", 1, between(0.0, kMaxSeed));
   }
   node.check_no_unknown_keys();
   return values;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -20,14 +21,16 @@ struct RouteValues {
   std::string name;
   bool is_closed{true};
   std::map<std::string, std::vector<road::LaneletId>> lanelets;  ///< by the benchmarkID of the map
-  Node node;  ///< its place in the file, for messages
+  bool begins_elsewhere{};  ///< a route above, from another one of its lanelets on
+  Node node;                ///< its place in the file, for messages
 };
 
 /// An entry of `vehicles`.
 struct VehicleValues {
   VehicleId id;
   std::string name;
-  std::string route;
+  std::string route;  ///< empty with random routes, which begin in a lanelet
+  road::LaneletId lanelet{};
   double start_m{};
   double start_left_m{};
   double start_turned_rad{};
@@ -39,6 +42,13 @@ struct CircleValues {
   std::size_t cars{};
   double radius_m{};
   Point centre_m{0.0, 0.0};
+};
+
+/// `draw`.
+struct DrawValues {
+  std::size_t cars{};
+  std::vector<std::string> routes;
+  Node node;
 };
 
 /// The values of a scenario file, before the files that it names are read.
@@ -57,11 +67,14 @@ struct ScenarioValues {
   std::map<std::string, policy::ReconfigurationSettings> policies{};
   std::string policy;
   std::optional<std::filesystem::path> lab_file{};
-  std::optional<CircleValues> circle{};  ///< none: `map`, `routes` and `vehicles`
+  std::optional<CircleValues> circle{};  ///< none: `map`, `routes`, and `vehicles` or `draw`
   std::optional<std::filesystem::path> map_file{};
-  std::vector<RouteValues> routes{};
+  bool has_random_routes{};
+  std::vector<RouteValues> routes{};  ///< none with random routes
+  std::optional<DrawValues> draw{};   ///< none: `vehicles`
   std::vector<VehicleValues> vehicles{};
-  Node node;  ///< the whole file, for messages
+  std::uint64_t seed{1};  ///< of random routes and drawn cars
+  Node node;              ///< the whole file, for messages
 };
 
 /// Reads the values of a scenario file. Relative paths in it start at the folder of `path`.

@@ -3,28 +3,102 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "planner/common/demand.hpp"
+#include "planner/common/random_index.hpp"
 #include "planner/geometry/footprint.hpp"
+#include "planner/road/random_tour.hpp"
+#include "planner/road/route.hpp"
 
 namespace hlc::scenario {
 namespace {
 
+constexpr int kDraws = 1000;
+
 /// Uniform in [0, 1), independent of the library: the standard does not fix its own distribution.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-53; }
 
+ConvexPolygon start_area(const Scenario& scenario, const ScenarioVehicle& vehicle) {
+  const vehicle::VehicleParameters& parameters = scenario.subgraph->automaton().vehicle;
+  return footprint_area(parameters.footprint, vehicle.start, parameters.safety_margin_m);
+}
+
+std::invalid_argument too_many(const Scenario& scenario) {
+  return std::invalid_argument(
+      fmt::format("{}: {} vehicles, too many for random starts without overlap",
+                  scenario.file.string(), scenario.vehicles.size()));
+}
+
+/// Takes the areas in a random order and leaves out those that overlap with one taken before.
+std::vector<std::size_t> drawn(const std::vector<ConvexPolygon>& areas, std::size_t most,
+                               std::mt19937_64& random) {
+  std::vector<std::size_t> left(areas.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  std::vector<std::size_t> taken;
+  while (taken.size() < most && !left.empty()) {
+    std::swap(left[random_index(random, left.size())], left.back());
+    const std::size_t one = left.back();
+    left.pop_back();
+    const auto overlaps = [&](std::size_t other) { return intersects(areas[one], areas[other]); };
+    if (std::ranges::none_of(taken, overlaps)) taken.push_back(one);
+  }
+  return taken;
+}
+
 }  // namespace
 
+std::vector<road::DrivableRoute> routes_of(std::span<const ScenarioVehicle> vehicles) {
+  std::vector<road::DrivableRoute> routes;
+  for (const ScenarioVehicle& one : vehicles) {
+    routes.push_back({.name = one.name, .path = one.path, .corridor = one.corridor});
+  }
+  return routes;
+}
+
+ScenarioVehicle on_random_route(ScenarioVehicle vehicle, const road::LaneletMap& map,
+                                std::uint64_t seed) {
+  road::Route route = road::build_route(
+      map, road::random_tour(map, vehicle.start_lanelet, seed, vehicle.id.value), true);
+  // The tour's second lanelet is the first of the car's.
+  vehicle.start_s_m =
+      route.path
+          .project_within(vehicle.start.position_m(), route.lanelet_s_m[1], route.lanelet_s_m[2])
+          .s_m;
+  vehicle.path = std::move(route.path);
+  vehicle.corridor = std::move(route.corridor);
+  return vehicle;
+}
+
+std::vector<ScenarioVehicle> draw_cars(const Scenario& scenario, std::size_t cars,
+                                       std::uint64_t seed) {
+  std::vector<ConvexPolygon> areas;
+  for (const ScenarioVehicle& one : scenario.candidates) areas.push_back(start_area(scenario, one));
+  std::mt19937_64 random(seed);
+  std::vector<std::size_t> best;
+  for (int draw = 0; draw < kDraws && best.size() < cars; ++draw) {
+    std::vector<std::size_t> taken = drawn(areas, cars, random);
+    if (taken.size() > best.size()) best = std::move(taken);
+  }
+  std::vector<ScenarioVehicle> vehicles;
+  for (const std::size_t i : best) {
+    ScenarioVehicle vehicle = scenario.candidates[i];
+    vehicle.id = {static_cast<std::uint8_t>(vehicles.size() + 1)};
+    vehicles.push_back(scenario.random_routes_on
+                           ? on_random_route(std::move(vehicle), *scenario.random_routes_on, seed)
+                           : std::move(vehicle));
+  }
+  return vehicles;
+}
+
 std::optional<std::pair<std::size_t, std::size_t>> overlapping_starts(const Scenario& scenario) {
-  const vehicle::VehicleParameters& parameters = scenario.subgraph->automaton().vehicle;
   std::vector<ConvexPolygon> areas;
   for (std::size_t j = 0; j < scenario.vehicles.size(); ++j) {
-    areas.push_back(footprint_area(parameters.footprint, scenario.vehicles[j].start,
-                                   parameters.safety_margin_m));
+    areas.push_back(start_area(scenario, scenario.vehicles[j]));
     for (std::size_t i = 0; i < j; ++i) {
       if (intersects(areas[i], areas[j])) return std::pair{i, j};
     }
@@ -45,7 +119,14 @@ Scenario with_starts(Scenario scenario, std::span<const double> starts_s_m) {
 }
 
 Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
-  constexpr int kDraws = 1000;
+  if (!scenario.candidates.empty()) {
+    Scenario redrawn = scenario;
+    redrawn.seed = seed;
+    redrawn.vehicles = draw_cars(scenario, scenario.vehicles.size(), seed);
+    if (redrawn.vehicles.size() < scenario.vehicles.size()) throw too_many(scenario);
+    if (scenario.random_routes_on) redrawn.routes = routes_of(redrawn.vehicles);
+    return redrawn;
+  }
   const bool are_closed = std::ranges::all_of(
       scenario.vehicles, [](const ScenarioVehicle& vehicle) { return vehicle.path.is_closed(); });
   if (!are_closed) {
@@ -62,9 +143,7 @@ Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
     Scenario candidate = with_starts(scenario, starts_s_m);
     if (!overlapping_starts(candidate)) return candidate;
   }
-  throw std::invalid_argument(
-      fmt::format("{}: {} vehicles, too many for random starts without overlap",
-                  scenario.file.string(), scenario.vehicles.size()));
+  throw too_many(scenario);
 }
 
 }  // namespace hlc::scenario

@@ -5,10 +5,19 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "planner/scenario/scenario.hpp"
 
 namespace hlc::scenario {
+
+/// The routes of the vehicles, by the vehicles' names.
+[[nodiscard]] std::vector<road::DrivableRoute> routes_of(std::span<const ScenarioVehicle> vehicles);
+
+/// The vehicle on a random route from its start lanelet on.
+/// @throws std::runtime_error one line, if no way leads back to that lanelet (random_tour.hpp)
+[[nodiscard]] ScenarioVehicle on_random_route(ScenarioVehicle vehicle, const road::LaneletMap& map,
+                                              std::uint64_t seed);
 
 /// Indices i < j of two vehicles whose footprints with margin overlap at the start; nothing if
 /// there are none.
@@ -20,8 +29,17 @@ namespace hlc::scenario {
 /// @pre one arc length per vehicle
 [[nodiscard]] Scenario with_starts(Scenario scenario, std::span<const double> starts_s_m);
 
+/// Draws cars from scenario.candidates, none twice, with ids 1, 2, ..., at the candidates' starts.
+/// A candidate whose footprint with margin overlaps with that of a car drawn before is drawn again.
+/// With random routes each car gets its own (random_tour.hpp), of the same seed. The same on every
+/// machine.
+/// @return `cars` of them, or fewer, as many as could be placed in the best of a thousand draws
+[[nodiscard]] std::vector<ScenarioVehicle> draw_cars(const Scenario& scenario, std::size_t cars,
+                                                     std::uint64_t seed);
+
 /// The scenario with every vehicle at a random place on its path, uniform in arc length, without
-/// overlaps. The same seed gives the same starts.
+/// overlaps; if it has candidates, with as many cars drawn from them again. The same seed gives the
+/// same starts.
 /// @throws std::invalid_argument if a path is not closed, or if a thousand draws all overlap
 [[nodiscard]] Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed);
 

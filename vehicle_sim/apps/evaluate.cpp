@@ -181,14 +181,22 @@ void declare_campaign(CLI::App& app, Choices& choices) {
                  "scenario's own")
       ->delimiter(',');
   app.add_option("--starts", choices.plan.starts,
-                 "number of starts: the scenario's own, then random ones on the routes")
+                 "number of starts: the scenario's own, then random ones on the routes, or other "
+                 "draws of the cars")
       ->check(hlc::apps::whole(1, 100'000))
       ->capture_default_str();
-  app.add_option("--seed", choices.plan.seed, "of the random starts")
+  app.add_option("--seed", choices.plan.seed, "of the random starts, and of cars drawn for them")
       ->check(hlc::apps::whole(0, kLargestSeed))
       ->capture_default_str();
   app.add_option("--steps", choices.plan.steps, "instead of the scenarios'")
       ->check(hlc::apps::whole(1, 100'000));
+  app.add_option("--map", choices.plan.map_file, "CommonRoad XML instead of the scenarios'");
+  app.add_option("--cars", choices.plan.cars,
+                 "number of cars (scenarios on a circle, or that draw their cars)")
+      ->check(hlc::apps::whole(1, 30));
+  app.add_option("--routes", choices.plan.routes,
+                 "random: every car takes random turns forever, instead of the scenarios' routes")
+      ->check(hlc::apps::among({hlc::scenario::kRandomRoutes}));
   app.add_option("--noise_seed", choices.plan.noise_seed,
                  "measurement noise of the simulated cars; default: none")
       ->check(hlc::apps::whole(0, kLargestSeed));

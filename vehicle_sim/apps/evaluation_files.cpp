@@ -27,6 +27,8 @@ Json heading_of(const campaign::Campaign& campaign) {
   json["starts"] = plan.starts;
   json["seed"] = plan.seed;
   json["steps"] = plan.steps ? Json(*plan.steps) : Json(nullptr);
+  if (plan.cars) json["cars"] = *plan.cars;
+  if (plan.routes) json["routes"] = *plan.routes;
   json["noise_seed"] = plan.noise_seed ? Json(*plan.noise_seed) : Json(nullptr);
   json["revision"] = program_revision();
   json["program"] = this_program_sha256();

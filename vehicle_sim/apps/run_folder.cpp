@@ -1,6 +1,8 @@
 #include "vehicle_sim/apps/run_folder.hpp"
 
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -21,14 +23,22 @@ std::filesystem::path facts_file(const std::filesystem::path& folder) {
 
 void write_configuration(const std::filesystem::path& folder, const scenario::Scenario& scenario) {
   record::keep_configuration(folder, scenario::files_of(scenario));
-  const scenario::ScenarioChoices choices{.file = scenario.file,
-                                          .profile = scenario.profile.name,
-                                          .engine = scenario::engine_name(scenario.search),
-                                          .subgraph = scenario.subgraph->spec().name,
-                                          .policy = scenario.policy,
-                                          .map_file = scenario.map_file,
-                                          .steps = scenario.steps,
-                                          .cars = {}};
+  const bool is_drawn = !scenario.candidates.empty();
+  const bool is_random = scenario.random_routes_on != nullptr;
+  const auto if_any = [](bool is_any, auto value) {
+    return is_any ? std::optional(value) : std::nullopt;
+  };
+  const scenario::ScenarioChoices choices{
+      .file = scenario.file,
+      .profile = scenario.profile.name,
+      .engine = scenario::engine_name(scenario.search),
+      .subgraph = scenario.subgraph->spec().name,
+      .policy = scenario.policy,
+      .map_file = scenario.map_file,
+      .steps = scenario.steps,
+      .cars = if_any(is_drawn || !scenario.map_file, scenario.vehicles.size()),
+      .seed = if_any(is_drawn || is_random, scenario.seed),
+      .routes = if_any(is_random, std::string(scenario::kRandomRoutes))};
   write_file(folder / "configuration" / "flags.yaml", record::flags_yaml(choices));
 }
 

@@ -91,7 +91,10 @@ scenario::Scenario Campaign::read(const CampaignRun& run) const {
                                   .profile = run.profile,
                                   .subgraph = run.subgraph,
                                   .policy = policy::kNoPolicy,
-                                  .steps = plan_.steps});
+                                  .map_file = plan_.map_file,
+                                  .steps = plan_.steps,
+                                  .cars = plan_.cars,
+                                  .routes = plan_.routes});
 }
 
 const scenario::Scenario& Campaign::scenario_of(const CampaignRun& run) const {

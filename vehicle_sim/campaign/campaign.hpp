@@ -30,7 +30,11 @@ struct CampaignPlan {
   std::vector<std::string> policies{};  ///< of every scenario
   std::size_t starts{1};
   std::uint64_t seed{1};
-  std::optional<std::size_t> steps;  ///< instead of the scenarios'
+  /// Instead of the scenarios' (scenario::ScenarioChoices)
+  std::optional<std::size_t> steps;
+  std::optional<std::filesystem::path> map_file{};
+  std::optional<std::size_t> cars{};
+  std::optional<std::string> routes{};
   std::optional<std::uint64_t> noise_seed;
 };
 

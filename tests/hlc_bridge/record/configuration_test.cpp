@@ -44,7 +44,9 @@ TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
                                           .policy = "zones, then \"fast\"",
                                           .map_file = "/elsewhere/maps/m.xml",
                                           .steps = 20,
-                                          .cars = {}};
+                                          .cars = {},
+                                          .seed = 7,
+                                          .routes = scenario::kRandomRoutes};
   test::put(folder / "configuration" / "flags.yaml", flags_yaml(choices));
   const scenario::ScenarioChoices kept = kept_choices(folder.path());
   EXPECT_EQ(kept.file, folder / "configuration" / "scenarios" / "s.yaml");
@@ -54,6 +56,8 @@ TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
   EXPECT_EQ(kept.policy, choices.policy);
   EXPECT_EQ(kept.map_file, folder / "configuration" / "maps" / "m.xml");
   EXPECT_EQ(kept.cars, std::nullopt);
+  EXPECT_EQ(kept.seed, 7U);
+  EXPECT_EQ(kept.routes, scenario::kRandomRoutes);
 }
 
 TEST(Configuration, ReadsWhatTheScriptWrites) {

@@ -274,6 +274,10 @@ TEST(GenerateMap, WritesAMapAndRefusesWhatIsNoFile) {
   const Outcome outcome = run_program("generate_map --out " + folder.path().string());
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_TRUE(outcome.output.starts_with("generate_map: --out = ")) << outcome.output;
+  EXPECT_EQ(run_program("generate_map --map lab_network --out " + map.string()).exit_code, 0);
+  const Outcome unknown = run_program("generate_map --map lab --out " + map.string());
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.output.find("lab_network"), std::string::npos) << unknown.output;
 }
 
 }  // namespace
