@@ -33,6 +33,7 @@ void ConflictMap::add_route(const road::DrivableRoute& route,
   const auto count = static_cast<std::size_t>(std::max(1.0, std::round(length_m / rules.cell_m)));
   const Footprint footprint{vehicle.footprint.length_m + 2.0 * rules.along_m,
                             vehicle.footprint.width_m + 2.0 * rules.across_m};
+  reach_of_area_m_ = std::hypot(footprint.length_m, footprint.width_m) / 2.0;
   std::vector<Cell> cells;
   for (std::size_t i = 0; i < count; ++i) {
     const double s_m = length_m * static_cast<double>(i) / static_cast<double>(count);
@@ -55,6 +56,7 @@ std::size_t ConflictMap::cells_apart(std::size_t route, std::size_t a, std::size
 }
 
 void ConflictMap::relate(std::size_t route, std::size_t other, const ConflictRules& rules) {
+  const double reach_m = 2.0 * reach_of_area_m_;
   const auto following = static_cast<std::size_t>(rules.following_m / cell_m(other));
   for (std::size_t i = 0; i < routes_[route].size(); ++i) {
     Cell& cell = routes_[route][i];
@@ -63,6 +65,7 @@ void ConflictMap::relate(std::size_t route, std::size_t other, const ConflictRul
     for (std::size_t j = 0; j < routes_[other].size(); ++j) {
       const Cell& beside = routes_[other][j];
       const double apart_m = (cell.pose.position_m() - beside.pose.position_m()).norm();
+      if (apart_m > reach_m) continue;
       const double turned_rad = wrap_angle(cell.pose.heading_rad - beside.pose.heading_rad);
       if (apart_m < rules.same_place_m && std::abs(turned_rad) < rules.same_heading_rad) {
         same.push_back(j);

@@ -75,6 +75,7 @@ class ConflictMap {
 
   std::vector<std::vector<Cell>> routes_;
   std::vector<double> lengths_m_;
+  double reach_of_area_m_{};  ///< from a cell's position
 };
 
 }  // namespace hlc::right_of_way

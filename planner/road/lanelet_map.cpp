@@ -4,6 +4,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <limits>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -187,6 +188,16 @@ class Reader {
 };
 
 }  // namespace
+
+double narrowest_lane_m(const LaneletMap& map) {
+  double narrowest_m = std::numeric_limits<double>::infinity();
+  for (const auto& [id, lanelet] : map.lanelets) {
+    for (std::size_t i = 0; i < lanelet.left_m.size(); ++i) {
+      narrowest_m = std::min(narrowest_m, (lanelet.left_m[i] - lanelet.right_m[i]).norm());
+    }
+  }
+  return narrowest_m;
+}
 
 Box ground_m(const LaneletMap& map) {
   constexpr double kBesideLanes_m = 0.03;

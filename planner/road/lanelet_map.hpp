@@ -48,6 +48,9 @@ struct LaneletMap {
 /// that is its floor, 4.5 m x 4.0 m, to a millimetre.
 [[nodiscard]] Box ground_m(const LaneletMap& map);
 
+/// Least distance between points of the same index of a lanelet's two bounds. [m]
+[[nodiscard]] double narrowest_lane_m(const LaneletMap& map);
+
 /// Reads the lanelets of a CommonRoad 2020a file. Everything else in it (intersections, signs,
 /// obstacles, ...) is skipped, so a lanelet may share its id with another kind of element.
 /// @throws std::runtime_error one line, `file:line: fault and bound`: file that cannot be read, not

@@ -56,7 +56,11 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
   std::vector<road::DrivableRoute> routes = scenario.routes;
   const auto named = std::ranges::find(scenario.vehicles, id, &ScenarioVehicle::id);
   if (named != scenario.vehicles.end()) {
-    routes = {{.name = named->name, .path = named->path, .corridor = named->corridor}};
+    routes = {{.name = named->name,
+               .path = named->path,
+               .corridor = named->corridor,
+               .driving_line = named->driving_line,
+               .number = named->route_number}};
   }
   return std::make_unique<controller::Controller>(
       controller::ControllerOptions{.vehicle = id,
@@ -66,6 +70,7 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                                     .reference_rule = scenario.profile.reference_rule,
                                     .strategies = scenario.profile.strategies,
                                     .search = scenario.search,
+                                    .conflicts = scenario.conflicts,
                                     .lab = scenario.lab},
       std::move(on), std::move(routes));
 }

@@ -28,6 +28,8 @@ struct ScenarioVehicle {
   road::LaneletId start_lanelet{};  ///< in which the start lies; 0 without lanes
   road::ReferencePath path;         ///< closed: a lap can be driven
   road::Corridor corridor;
+  road::DrivingLine driving_line{};  ///< these two as in DrivableRoute
+  std::uint32_t route_number{};
 };
 
 /// A run: its vehicles and routes, automaton and rules.
@@ -56,6 +58,9 @@ struct Scenario {
   /// For vehicles that the scenario does not name: its routes by name, or on a circle and with
   /// random routes those of its cars.
   std::vector<road::DrivableRoute> routes;
+  /// Width of the map's narrowest lane, with `right_of_way`; otherwise none.
+  std::optional<double> shared_lane_width_m;
+  std::shared_ptr<const right_of_way::ConflictMap> conflicts;  ///< ControllerOptions
   /// What the cars of a scenario with `draw` are drawn from; otherwise empty.
   std::vector<ScenarioVehicle> candidates;
   std::shared_ptr<const road::LaneletMap> random_routes_on;  ///< none: no random routes

@@ -133,6 +133,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
     values.circle = parse_circle(node.map("circle"));
   } else {
     if (node.has("map")) values.map_file = beside(path, node.required<std::string>("map"));
+    values.has_right_of_way = node.optional<bool>("right_of_way", false);
     parse_routes(node, values);
     if (node.has("draw")) {
       values.draw = parse_draw(node.map("draw"));

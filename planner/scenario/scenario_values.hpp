@@ -70,6 +70,7 @@ struct ScenarioValues {
   std::optional<CircleValues> circle{};  ///< none: `map`, `routes`, and `vehicles` or `draw`
   std::optional<std::filesystem::path> map_file{};
   bool has_random_routes{};
+  bool has_right_of_way{};
   std::vector<RouteValues> routes{};  ///< none with random routes
   std::optional<DrawValues> draw{};   ///< none: `vehicles`
   std::vector<VehicleValues> vehicles{};

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "planner/road/route.hpp"
+#include "planner/scenario/right_of_way.hpp"
 #include "planner/scenario/starts.hpp"
 
 namespace hlc::scenario {
@@ -138,6 +139,14 @@ void add_vehicles_on_map(const ScenarioValues& values, const road::LaneletMap& m
     add_named_vehicles(values, map, routes, scenario);
   }
   if (scenario.random_routes_on) scenario.routes = routes_of(scenario.vehicles);
+  if (values.has_right_of_way && !scenario.random_routes_on) {
+    const auto is_open = [](const auto& one) { return !one.path.is_closed(); };
+    if (std::ranges::any_of(scenario.routes, is_open)) {
+      values.node.fail("right_of_way", "false: an open route is not supported");
+    }
+    scenario.shared_lane_width_m = road::narrowest_lane_m(map);
+    relate_routes(scenario);
+  }
 }
 
 /// Cars evenly on a circle, each on the straight line to the opposite point; no lanes.

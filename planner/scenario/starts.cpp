@@ -14,6 +14,7 @@
 #include "planner/geometry/footprint.hpp"
 #include "planner/road/random_tour.hpp"
 #include "planner/road/route.hpp"
+#include "planner/scenario/right_of_way.hpp"
 
 namespace hlc::scenario {
 namespace {
@@ -125,6 +126,7 @@ Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
     redrawn.vehicles = draw_cars(scenario, scenario.vehicles.size(), seed);
     if (redrawn.vehicles.size() < scenario.vehicles.size()) throw too_many(scenario);
     if (scenario.random_routes_on) redrawn.routes = routes_of(redrawn.vehicles);
+    relate_routes(redrawn);
     return redrawn;
   }
   const bool are_closed = std::ranges::all_of(

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "planner/scenario/scenario.hpp"
+
+namespace hlc::scenario {
+
+/// For a scenario with `right_of_way`: driving lines and numbers of its routes and of its vehicles'
+/// own, and the conflict map of all of them. To be called again when the vehicles were drawn again.
+void relate_routes(Scenario& scenario);
+
+}  // namespace hlc::scenario
