@@ -43,6 +43,30 @@ std::string row(const VehicleSummary& vehicle) {
       vehicle.fallback_steps, vehicle.deadline_misses);
 }
 
+std::string joined(const std::vector<VehicleId>& ids) {
+  std::string text;
+  for (const VehicleId id : ids) text += fmt::format("{}{}", text.empty() ? "" : " ", id.value);
+  return text;
+}
+
+/// Nothing if no vehicle waited.
+std::string waiting_lines(const RunSummary& summary) {
+  const double longest_s = longest_wait_s(summary);
+  const auto who = std::ranges::find_if(summary.vehicles, [&](const VehicleSummary& vehicle) {
+    return vehicle.wait && vehicle.wait->duration_s == longest_s;
+  });
+  if (who == summary.vehicles.end()) return "";
+  std::string text = fmt::format(
+      "  longest wait for others                      {:.1f} s, vehicle {} for {}, from {:.1f} s "
+      "on\n",
+      longest_s, who->id.value, joined(who->wait->vehicles),
+      static_cast<double>(who->wait->since_step) * summary.description.step_s);
+  if (const std::vector<VehicleId> stuck = stuck_vehicles(summary); !stuck.empty()) {
+    text += fmt::format("  stuck at the end: vehicles                   {}\n", joined(stuck));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string summary_table(const RunSummary& summary) {
@@ -83,6 +107,7 @@ std::string summary_table(const RunSummary& summary) {
         "  plans cut off by the search's budget         up to {:.1f} % of a vehicle's\n",
         100.0 * budget_share);
   }
+  text += waiting_lines(summary);
   text += fmt::format(
       "  wall time, real-time factor                  {:.2f} s, {:.1f}\n"
       "  planned and driven poses, SHA-256  {}\n"
@@ -100,6 +125,12 @@ std::string summary_table(const RunSummary& summary) {
       "tracking error   driven to planned position at the same instant, every 20 ms\n"
       "fallb.           steps in which the previous plan stayed in force\n"
       "late             steps in which a deadline was missed (real time)\n";
+  if (longest_wait_s(summary) > 0.0) {
+    text += fmt::format(
+        "wait             the vehicle stands, though without the others it would drive; stuck: for "
+        "{:.0f} s\n",
+        coordination::kStuckAfter_s);
+  }
   return text;
 }
 

@@ -27,10 +27,6 @@ coordination::FallbackReason reason_of(coordination::CommitVerdict verdict) {
   return coordination::FallbackReason::kNone;
 }
 
-bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
-  return std::ranges::find(vehicles, vehicle) != vehicles.end();
-}
-
 }  // namespace
 
 Controller::Controller(const ControllerOptions& options,
@@ -220,28 +216,12 @@ LaneEntry Controller::find_lane_entry() {
       });
 }
 
-std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
-  std::vector<CoupledVehicle> coupled_vehicles;
-  for (const VehicleId other : coupled()) {
-    const auto respected = step_.respected.find(other);
-    coupled_vehicles.push_back(
-        {.traffic = &neighbours_.traffic_of(other),
-         .prediction = respected == step_.respected.end() ? nullptr : &respected->second,
-         .is_predecessor = options_.strategies.plans_before(other, options_.vehicle)});
-  }
-  std::vector<MissingVehicle> missing;
-  for (const VehicleId other : neighbours_.missing()) {
-    missing.push_back(
-        {.measured = step_.observation.measured(other),
-         .stands_for_good = neighbours_.stands_for_good(other, options_.horizon_steps)});
-  }
-  return controller::obstacles_m(coupled_vehicles, options_.strategies.coordination.obstacles,
-                                 missing, neighbours_.rules(), step_.observation.step,
-                                 options_.horizon_steps, subgraph().automaton().step_s);
+search::HorizonProblem Controller::posed_alone() const {
+  return problem_in(entry_area() ? *entry_area() : route().corridor);
 }
 
 search::HorizonProblem Controller::pose_problem() const {
-  search::HorizonProblem problem = problem_in(entry_area() ? *entry_area() : route().corridor);
+  search::HorizonProblem problem = posed_alone();
   problem.obstacles_m = obstacles_m();
   // The plan in force, continued, is a plan too, as long as it starts where planning starts.
   if (!in_force_->is_moved()) {
@@ -353,6 +333,7 @@ coordination::Report Controller::commit(std::span<const coordination::Prediction
   if (!options_.strategies.coordination.commit.needs_votes) note_awaited(predictions);
   if (!step_.candidate.plan) return finish(false, step_.obstacle);
   const coordination::CommitVerdict verdict = decide(predictions, outcomes);
+  if (verdict == coordination::CommitVerdict::kFallback) note_opposed(outcomes);
   return finish(verdict == coordination::CommitVerdict::kInForce, reason_of(verdict));
 }
 
