@@ -41,7 +41,7 @@ struct HlcSettings {
 ///   sent before a match are lost.
 /// * *Preparing* waits, if the rules require it, for requested subgraphs that are being prepared.
 /// * *Stepping* is a ControlStep: traffic is published before anything else is computed.
-/// * *Reporting* determines whom the vehicle waits for, once the command is published; then come
+/// * *Reporting* determines which vehicles it waits for, once the command is published; then come
 ///   the report, the drawings and AfterStep.
 /// * *After a step* policies look ahead, when everything is published. The copy of the command is
 ///   published first: a controller that dies in between would leave its vehicle half a plan.

@@ -117,7 +117,7 @@ class Controller {
   [[nodiscard]] coordination::Report fall_back(coordination::FallbackReason reason);
 
   /// After the last phase of every step, once the command is published: enters in the step's report
-  /// whom the vehicle waits for (waits_for.hpp), and since when. Changes no plan. Searches once if
+  /// for which vehicles this one waits (waits_for.hpp), and since when. Changes no plan. Searches once if
   /// the plan in force stands. A late step is not examined: the waiting of the step before lasts.
   void note_waiting(coordination::Report& report);
 

@@ -1,5 +1,5 @@
-// The other vehicles as a controller sees them in a step: obstacles of its plan, and whom it waits
-// for.
+// The other vehicles as a controller sees them in a step: obstacles of its plan, and those that its
+// vehicle waits for.
 #include "planner/controller/controller.hpp"
 #include "planner/controller/self_loop.hpp"
 

@@ -9,7 +9,7 @@
 #include "planner/coordination/plan.hpp"
 #include "planner/coordination/report.hpp"
 
-/// Whom a standing vehicle waits for: the only place that decides on it. It explains a step that is
+/// Which vehicles a standing vehicle waits for: the only place that decides on it. It explains a step that is
 /// over, and changes no plan.
 namespace hlc::controller {
 

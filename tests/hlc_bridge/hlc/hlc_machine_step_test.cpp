@@ -99,7 +99,7 @@ TEST_F(HlcMachineStep, TrafficGoesOutAloneAndTheCommandBeforeReportDrawingAndOwn
   EXPECT_THAT(kinds[1], ElementsAre(kind(coordination::Prediction{})));
   EXPECT_THAT(kinds[2], ElementsAre(kind(TrajectoryCommand{}), kind(TrajectoryCommand{})));
   EXPECT_THAT(kinds[3], ElementsAre(kind(ReportRecord{}), kind(DrawStep{}), kind(AfterStep{})))
-      << "whom the vehicle waits for is determined after the command";
+      << "the vehicles that it waits for are determined after the command";
   EXPECT_THAT(kinds[4], IsEmpty()) << "policies may look ahead then";
 }
 

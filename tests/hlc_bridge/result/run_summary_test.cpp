@@ -298,6 +298,8 @@ TEST_F(RunSummaryTest, TheLongestWaitIsToldWithWhomItWasFor) {
       HasSubstr("longest wait for others                      2.2 s, vehicle 1 for 2 3, from 4.0 s "
                 "on\n"));
   EXPECT_THAT(table, Not(HasSubstr("stuck at the end")));
+  for (std::uint8_t id = 10; id < 25; ++id) report(1, 30).report.waiting.vehicles.push_back({id});
+  EXPECT_THAT(summary_table(summary()), HasSubstr("for 2 3 10 11 12 13 14 15 ..., from 4.0 s on"));
 }
 
 TEST_F(RunSummaryTest, AVehicleIsStuckByItsLastStepAlone) {
