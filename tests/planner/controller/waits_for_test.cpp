@@ -242,6 +242,21 @@ TEST_F(Blocked, ItWaitsForOneWhosePredictionDidNotArrive) {
   EXPECT_THAT(report.waiting.vehicles, ElementsAre(VehicleId{2}));
 }
 
+// Car 2 plans after car 1, and into its way.
+TEST_F(Blocked, ItWaitsForOneWhoseNewPlanItMeets) {
+  start(10.0, {});
+  parked_x_m_ = -0.5;  // behind
+  static_cast<void>(one_->observe(at(k_, {following(*one_, k_), seen(2, parked_x_m_, 0.0)})));
+  one_->couple(std::vector{parked(k_)});
+  static_cast<void>(one_->plan({}));
+  coordination::Prediction crossing = stays(k_);
+  crossing.is_new = true;
+  crossing.areas.final_area_m = wall(0.6);
+  const coordination::Report report = finish(one_->commit(std::vector{crossing}, {}));
+  ASSERT_EQ(report.reason, FallbackReason::kConflict);
+  EXPECT_THAT(report.waiting.vehicles, ElementsAre(VehicleId{2}));
+}
+
 TEST_F(Blocked, ItWaitsForOneThatIsMissing) {
   start();
   const coordination::Report report = step(false);
