@@ -108,6 +108,7 @@ coordination::Traffic Controller::observe(const Observation& observation) {
   step_.report.deviation_m = check.deviation_m;
   if (check.is_disturbed) step_.obstacle = coordination::FallbackReason::kDeviation;
   step_.is_vehicle_lost = check.is_lost;
+  step_.is_disturbed = check.is_disturbed;
   if (check.is_reanchored) drivable_area_.depart();
   step_.report.subgraph = subgraph().spec().name;
   report_plan_in_force(step_.report);

@@ -117,8 +117,9 @@ class Controller {
   [[nodiscard]] coordination::Report fall_back(coordination::FallbackReason reason);
 
   /// After the last phase of every step, once the command is published: enters in the step's report
-  /// for which vehicles this one waits (waits_for.hpp), and since when. Changes no plan. Searches once if
-  /// the plan in force stands. A late step is not examined: the waiting of the step before lasts.
+  /// for which vehicles this one waits (waits_for.hpp), and since when. Changes no plan. Searches
+  /// once if the plan in force stands. A late step is not examined: the waiting of the step before
+  /// lasts.
   void note_waiting(coordination::Report& report);
 
   /// Valid after `couple`: the senders that the phases need.
@@ -191,6 +192,7 @@ class Controller {
     coordination::FallbackReason obstacle{
         coordination::FallbackReason::kNone};  ///< why nothing new may be planned
     bool is_vehicle_lost{};
+    bool is_disturbed{};  ///< DeviationCheck
 
     [[nodiscard]] StepIndex next() const { return {observation.step.value + 1}; }
   };

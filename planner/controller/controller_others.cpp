@@ -95,6 +95,7 @@ void Controller::note_waiting(coordination::Report& report) {
       vehicles = waits_for({.report = report,
                             .in_force = plan_in_force(),
                             .horizon_steps = options_.horizon_steps,
+                            .is_disturbed = step_.is_disturbed,
                             .alone = [this] { return motion_alone(); },
                             .others = [this] { return other_vehicles(); }});
     }

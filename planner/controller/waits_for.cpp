@@ -49,9 +49,8 @@ std::vector<VehicleId> waits_for(const EndedStep& step) {
   const StepIndex now = step.report.step;
   const StepIndex next{now.value + 1};
   const StepIndex end{next.value + step.horizon_steps};
-  if (!may_be_because_of_others(step.report)) return {};
-  const Pose& pose = step.in_force.pose_at(now);
-  if (!stays_at(step.in_force, pose, now, end)) return {};
+  if (step.is_disturbed || !may_be_because_of_others(step.report)) return {};
+  if (!stays_at(step.in_force, step.in_force.pose_at(now), now, end)) return {};
   const std::optional<MotionAlone> alone = step.alone();
   if (!alone || stays_at(alone->plan, alone->plan.pose_at(next), next, end)) return {};
 

@@ -9,8 +9,8 @@
 #include "planner/coordination/plan.hpp"
 #include "planner/coordination/report.hpp"
 
-/// Which vehicles a standing vehicle waits for: the only place that decides on it. It explains a step that is
-/// over, and changes no plan.
+/// Which vehicles a standing vehicle waits for: the only place that decides on it. It explains a
+/// step that is over, and changes no plan.
 namespace hlc::controller {
 
 /// What a vehicle would do if there were no other one: its optimum, from t(k+1) on.
@@ -34,6 +34,7 @@ struct EndedStep {
   const coordination::Report& report;
   const coordination::Plan& in_force;  ///< during the step and from then on
   std::size_t horizon_steps{};
+  bool is_disturbed{};  ///< it is off its plan, or not seen (DeviationCheck)
   std::function<std::optional<MotionAlone>()> alone;  ///< nothing: no plan is feasible
   std::function<std::vector<OtherVehicle>()> others;
 };
@@ -41,7 +42,7 @@ struct EndedStep {
 /// The vehicle waits if
 ///
 /// 1. it planned, or kept its plan for a reason that others can cause: `infeasible`, `missing`,
-///    `conflict`, `neighbour`. Not if it is late, off its plan or its route, if its plan cannot be
+///    `conflict`, `neighbour`. Not if it is disturbed, late or off its route, if its plan cannot be
 ///    driven or if its search used up its budget;
 /// 2. its plan in force stands: the same pose from t(k) to t(k+1+horizon);
 /// 3. alone it would move: its optimum without all others leads away from where it begins. At its

@@ -57,6 +57,7 @@ class WaitsFor : public testing::Test {
     return waits_for({.report = report_,
                       .in_force = in_force_,
                       .horizon_steps = kHorizon,
+                      .is_disturbed = is_disturbed_,
                       .alone = [this]() -> std::optional<MotionAlone> {
                         ++searches_;
                         if (!alone_) return std::nullopt;
@@ -70,6 +71,7 @@ class WaitsFor : public testing::Test {
   coordination::Plan in_force_{standing()};
   std::optional<coordination::Plan> alone_{eastwards()};
   std::vector<OtherVehicle> others_{across(2, 0.6)};
+  bool is_disturbed_{};
   int searches_{};
 };
 
@@ -111,6 +113,12 @@ TEST_F(WaitsFor, NobodyWhereItWouldStandAnyway) {
   alone_ = standing();
   EXPECT_THAT(vehicles(), IsEmpty());
   EXPECT_EQ(searches_, 1);
+}
+
+TEST_F(WaitsFor, NobodyIfItIsDisturbed) {
+  is_disturbed_ = true;
+  EXPECT_THAT(vehicles(), IsEmpty());
+  EXPECT_EQ(searches_, 0);
 }
 
 TEST_F(WaitsFor, NobodyWhereNoPlanIsFeasibleAlone) {
@@ -276,6 +284,22 @@ TEST_F(Blocked, ItWaitsForOneThatDoesNotReceiveIt) {
   const coordination::Report report = finish(one_->commit({}, {}));
   ASSERT_EQ(report.reason, FallbackReason::kMissing);
   EXPECT_THAT(report.waiting.vehicles, ElementsAre(VehicleId{2})) << "though it is behind";
+}
+
+// Nobody sees either car: the step's reason is the other one, whose place is unknown.
+TEST_F(Blocked, WhileItIsNotSeenItDoesNotWait) {
+  start();
+  static_cast<void>(step());
+  for (int i = 0; i < 4; ++i) {
+    Observation observation = at(k_, {});
+    observation.active = {{1}, {2}};
+    static_cast<void>(one_->observe(observation));
+    one_->couple({});
+    static_cast<void>(one_->plan({}));
+    const coordination::Report report = finish(one_->commit({}, {}));
+    ASSERT_EQ(report.reason, FallbackReason::kMissing);
+    EXPECT_EQ(report.waiting, coordination::Waiting{});
+  }
 }
 
 TEST_F(Blocked, AtItsGoalItDoesNotWait) {
