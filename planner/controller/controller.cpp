@@ -338,12 +338,13 @@ coordination::Report Controller::commit(std::span<const coordination::Prediction
   return finish(verdict == coordination::CommitVerdict::kInForce, reason_of(verdict));
 }
 
-/// For announced_plans; the predecessors' are known already.
+/// For announced_plans and note_waiting; the predecessors' are known already.
 void Controller::note_awaited(std::span<const coordination::Prediction> predictions) {
   for (const VehicleId other : coupled()) {
     if (step_.respected.contains(other)) continue;
     const coordination::Prediction* message =
         find_message(predictions, other, step_.observation.step);
+    if (message == nullptr) step_.not_received.push_back(other);
     if (message != nullptr && message->is_new) step_.awaited[other] = message->areas;
   }
 }

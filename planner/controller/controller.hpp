@@ -188,6 +188,7 @@ class Controller {
         awaited;  ///< new plans of other coupled vehicles
     PlanCandidate candidate;
     coordination::Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
+    std::vector<VehicleId> not_received;  ///< coupled, no prediction when this one committed
     std::vector<VehicleId> opposed;       ///< voted against the plan, or did not vote
     coordination::FallbackReason obstacle{
         coordination::FallbackReason::kNone};  ///< why nothing new may be planned

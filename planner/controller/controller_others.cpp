@@ -62,8 +62,7 @@ OtherVehicle Controller::as_obstacle(VehicleId coupled) const {
                       .prevents_all = holds(other.traffic->silent, options_.vehicle) ||
                                       holds(step_.opposed, coupled)};
   const auto awaited = step_.awaited.find(coupled);
-  const bool is_unknown =
-      other.prediction == nullptr && step_.report.reason == coordination::FallbackReason::kMissing;
+  const bool is_unknown = holds(step_.not_received, coupled);
   for (std::size_t j = 0; j < result.areas_m.size(); ++j) {
     if (awaited != step_.awaited.end()) {
       result.areas_m[j].push_back(awaited->second.during({step_.next().value + j}));

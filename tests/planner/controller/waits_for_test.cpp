@@ -111,6 +111,7 @@ TEST_F(WaitsFor, NobodyBeforeItStands) {
 
 TEST_F(WaitsFor, NobodyWhereItWouldStandAnyway) {
   alone_ = standing();
+  others_ = {across(2, 0.0), preventing(3)};
   EXPECT_THAT(vehicles(), IsEmpty());
   EXPECT_EQ(searches_, 1);
 }
@@ -281,7 +282,8 @@ TEST_F(Blocked, ItWaitsForOneThatDoesNotReceiveIt) {
   traffic.silent = {{1}};
   one_->couple(std::vector{traffic});
   static_cast<void>(one_->plan({}));
-  const coordination::Report report = finish(one_->commit({}, {}));
+  parked_x_m_ = -0.5;
+  const coordination::Report report = finish(one_->commit(std::vector{stays(k_)}, {}));
   ASSERT_EQ(report.reason, FallbackReason::kMissing);
   EXPECT_THAT(report.waiting.vehicles, ElementsAre(VehicleId{2})) << "though it is behind";
 }
