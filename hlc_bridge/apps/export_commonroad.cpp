@@ -36,7 +36,7 @@ hlc::record::ExportedVehicle exported(hlc::VehicleId id,
   }
   const std::string name = fmt::format("vehicle {}", id.value);
   if (own.size() < 2) throw std::runtime_error(name + ": fewer than two steps were reported");
-  const bool is_whole = facts.exit_code == 0;
+  const bool is_whole = hlc::is_driven_to_end(facts.exit_code);
   if (is_whole && own.size() < facts.steps) {
     throw std::runtime_error(fmt::format("reports.csv: {} steps of {}, must be the {} of run.json",
                                          own.size(), name, facts.steps));

@@ -55,7 +55,9 @@ void declare(CLI::App& app, Flags& flags) {
   app.footer(
       "Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 a process died during the "
       "run "
-      "(--on_death continue: and was not back at its end), 130 interrupted.");
+      "(--on_death continue: and was not back at its end), 6 driven, but a vehicle was stuck at "
+      "the "
+      "end, 130 interrupted.");
 }
 
 hlc::process::LabControlOptions process_options(const Flags& flags) {

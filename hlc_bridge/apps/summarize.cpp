@@ -60,10 +60,14 @@ int summarize_run(const std::filesystem::path& run, const hlc::scenario::Scenari
   hlc::write_file(run / "summary.json", hlc::record::summary_json(summary));
   hlc::record::keep_configuration(run, hlc::scenario::files_of(scenario));
   std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
-  const std::string fault = hlc::result::driving_fault(summary);
-  if (fault.empty()) return hlc::kExitGood;
-  std::cerr << "summarize: " << fault << '\n';
-  return hlc::kExitDrivenBadly;
+  if (const std::string fault = hlc::result::driving_fault(summary); !fault.empty()) {
+    std::cerr << "summarize: " << fault << '\n';
+    return hlc::kExitDrivenBadly;
+  }
+  const auto stuck = hlc::result::stuck_vehicles(summary);
+  if (stuck.empty()) return hlc::kExitGood;
+  std::cerr << "summarize: stuck at the end: vehicles " << hlc::record::ids_to_text(stuck) << '\n';
+  return hlc::kExitStuck;
 }
 
 }  // namespace
@@ -79,8 +83,8 @@ int main(int argc, char** argv) {
       ->check(hlc::apps::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.footer(
       "Exit codes: 0 success, 2 invalid input or an output that cannot be written, 5 driven, but a "
-      "vehicle left its plan or touched another "
-      "one.");
+      "vehicle left its plan or touched another one, 6 driven, but a vehicle was stuck at the "
+      "end.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
     return *code;
   }

@@ -166,7 +166,8 @@ bool is_valid(const ReportMessage& wire) {
          is_finite(pose_from_wire(wire.planned_pose())) && wire.maneuver().size() <= kMaxText &&
          wire.subgraph().size() <= kMaxText &&
          all_finite(wire.cost_m2(), wire.gap_m2(), wire.deviation_m()) &&
-         is_valid(wire.coupled()) && is_valid(wire.missing());
+         is_valid(wire.coupled()) && is_valid(wire.missing()) && is_valid(wire.waits_for()) &&
+         wire.waits_since() <= wire.step();
 }
 
 }  // namespace
@@ -241,8 +242,9 @@ Incoming<coordination::Outcome> from_wire(const OutcomeMessage& wire) {
 void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns] = message;
   const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,
-               cost_m2, quality, gap_m2, generated, expanded, level, coupled, missing,
-               deviation_m] = report;
+               cost_m2, quality, gap_m2, generated, expanded, level, coupled, missing, deviation_m,
+               waiting] = report;
+  const auto& [waits_for, waits_since] = waiting;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.status(static_cast<std::uint8_t>(status));
@@ -263,6 +265,8 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   wire.planning_ns(planning_ns);
   wire.deadline_missed(deadline_missed);
   wire.late_ns(late_ns);
+  wire.waits_for(ids_to_wire(waits_for));
+  wire.waits_since(waits_since.value);
 }
 
 Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
@@ -286,7 +290,8 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
       .level = wire.level(),
       .coupled = ids_from_wire(wire.coupled()),
       .missing = ids_from_wire(wire.missing()),
-      .deviation_m = wire.deviation_m()};
+      .deviation_m = wire.deviation_m(),
+      .waiting = {.vehicles = ids_from_wire(wire.waits_for()), .since = {wire.waits_since()}}};
   return {ReportRecord{report, wire.planning_ns(), wire.deadline_missed(), wire.late_ns()}, 0};
 }
 

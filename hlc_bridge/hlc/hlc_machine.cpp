@@ -97,6 +97,8 @@ bool HlcMachine::go_on(const Instant& now) {
       return prepare(now);
     case Phase::kStepping:
       return step(now);
+    case Phase::kReporting:
+      return report();
     case Phase::kAfterStep:
       return after_step(now);
     case Phase::kRefusing:
@@ -218,15 +220,24 @@ bool HlcMachine::step(const Instant& now) {
   return false;
 }
 
+/// The command is published before anything else is computed: the report follows in the next
+/// iteration.
 void HlcMachine::finish(ReportRecord record, const Instant& now) {
   publish_command(record.report, now);
-  if (current_.is_running) notes_.note_fallback(controller(), record.report, actions_);
-  current_.report = record.report;
-  actions_.add(std::move(record));
-  actions_.add(DrawStep{.report = current_.report,
-                        .time_to_live = kDrawnPeriods * period_of(current_.list)});
+  current_.record = std::move(record);
+  phase_ = Phase::kReporting;
+}
+
+bool HlcMachine::report() {
+  coordination::Report& report = current_.record.report;
+  core_.controller().note_waiting(report);
+  if (current_.is_running) notes_.note_step(controller(), report, actions_);
+  actions_.add(current_.record);
+  actions_.add(
+      DrawStep{.report = report, .time_to_live = kDrawnPeriods * period_of(current_.list)});
   if (core_.has_begun() && ending_.unwritten.empty()) actions_.add(AfterStep{});
   phase_ = Phase::kAfterStep;
+  return false;
 }
 
 /// Also enters it in the report if it is not the plan.
@@ -245,7 +256,7 @@ bool HlcMachine::after_step(const Instant& now) {
     if (subgraphs_.looks_ahead() && !is_published) return false;
     const bool has_time = !rules_.deadlines ||
                           now.run < deadline_in_step(current_.list, rules_.deadlines->look_ahead);
-    subgraphs_.end_step(controller(), current_.report, has_time);
+    subgraphs_.end_step(controller(), current_.record.report, has_time);
   }
   phase_ = Phase::kIdle;
   return true;
@@ -265,6 +276,8 @@ WakeUp HlcMachine::wake_up() const {
       const WakeUp wake = step_.wake_up();
       return {.run = wake.run, .wall = machine::earlier(copy, wake.wall)};
     }
+    case Phase::kReporting:
+      return {.wall = kAtOnce};
     case Phase::kAfterStep:
       return {.wall = subgraphs_.looks_ahead() && copy ? *copy : kAtOnce};
   }

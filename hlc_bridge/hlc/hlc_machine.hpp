@@ -33,15 +33,16 @@ struct HlcSettings {
 /// from the middleware, steps the controller, exchanges messages with the other controllers between
 /// its phases, answers every list with a command.
 ///
-///     idle ─list─► gathering ─► preparing ─► stepping ─report─► after step ─► idle
-///       │             all ready    requested    └── or standing by ──┘  looking ahead
+///     idle ─list─► gathering ─► preparing ─► stepping ─command─► reporting ─► after step ─► idle
+///       │             all ready    requested    └── or standing by ──┘        looking ahead
 ///       └─► exit                   subgraphs
 ///
 /// * *Gathering* waits under StartRule::kTogether until all controllers are matched, since messages
 ///   sent before a match are lost.
 /// * *Preparing* waits, if the rules require it, for requested subgraphs that are being prepared.
-/// * *Stepping* is a ControlStep: traffic is published before anything else is computed, and the
-///   command before the report, the drawings and AfterStep.
+/// * *Stepping* is a ControlStep: traffic is published before anything else is computed.
+/// * *Reporting* determines which vehicles it waits for, once the command is published; then come
+///   the report, the drawings and AfterStep.
 /// * *After a step* policies look ahead, when everything is published. The copy of the command is
 ///   published first: a controller that dies in between would leave its vehicle half a plan.
 ///
@@ -83,6 +84,7 @@ class HlcMachine {
     kGathering,
     kPreparing,
     kStepping,
+    kReporting,
     kAfterStep,
     kRefusing,
   };
@@ -93,7 +95,7 @@ class HlcMachine {
     controller::Observation observation;
     bool is_running{};  ///< a step of the experiment, or one before it
     Nanoseconds reconfiguring_ns{};
-    coordination::Report report;
+    ReportRecord record;
     Nanoseconds patience{};  ///< wall time at which a wait ends; kPreparing, kRefusing
   };
 
@@ -122,6 +124,7 @@ class HlcMachine {
   [[nodiscard]] bool gather(const Instant& now);
   [[nodiscard]] bool prepare(const Instant& now);
   [[nodiscard]] bool step(const Instant& now);
+  [[nodiscard]] bool report();
   [[nodiscard]] bool after_step(const Instant& now);
   [[nodiscard]] bool refuse(const Instant& now);
 

@@ -14,8 +14,8 @@ void OperatorNotes::note_placement(const controller::Controller& controller, Hlc
                    : machine::error(placement_line(controller)));
 }
 
-void OperatorNotes::note_fallback(const controller::Controller& controller,
-                                  const coordination::Report& report, HlcActions& actions) {
+void OperatorNotes::note_step(const controller::Controller& controller,
+                              const coordination::Report& report, HlcActions& actions) {
   const bool is_off_route = report.reason == coordination::FallbackReason::kOffRoute;
   const bool is_over_budget = report.reason == coordination::FallbackReason::kBudget;
   if ((is_off_route && !is_off_route_logged_) || (is_over_budget && !is_budget_logged_)) {
@@ -23,6 +23,9 @@ void OperatorNotes::note_fallback(const controller::Controller& controller,
   }
   is_off_route_logged_ = is_off_route;
   is_budget_logged_ |= is_over_budget;
+  if (const auto line = stuck_.note(report, controller.subgraph().automaton().step_s)) {
+    actions.warn(*line);
+  }
 }
 
 void OperatorNotes::note_fault(StepIndex step, const std::string& fault, HlcActions& actions) {

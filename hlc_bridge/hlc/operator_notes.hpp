@@ -17,8 +17,9 @@ class OperatorNotes {
 
   /// Why the vehicle keeps its former plan, where that may last. An exhausted budget is logged once
   /// in a run; the summary counts how often.
-  void note_fallback(const controller::Controller& controller, const coordination::Report& report,
-                     HlcActions& actions);
+  /// Also that the vehicle has become stuck (coordination/waiting.hpp).
+  void note_step(const controller::Controller& controller, const coordination::Report& report,
+                 HlcActions& actions);
 
   /// @param fault  of a step's command (AnswerToList)
   void note_fault(StepIndex step, const std::string& fault, HlcActions& actions);
@@ -27,6 +28,7 @@ class OperatorNotes {
   std::optional<bool> logged_fit_;  ///< whether the vehicle fits, as last logged
   bool is_off_route_logged_{};
   bool is_budget_logged_{};
+  coordination::StuckNotice stuck_;
   std::string last_fault_;
 };
 

@@ -28,11 +28,16 @@ std::vector<std::string> controller_names(const std::vector<std::uint8_t>& ids) 
 LabRun::LabRun(LabRunSettings settings)
     : settings_{std::move(settings)},
       attendance_{settings_.vehicle_ids},
-      reports_{settings_.vehicle_ids} {}
+      reports_{settings_.vehicle_ids},
+      waiting_{settings_.period} {}
 
 void LabRun::report(const ReportRecord& record) {
   if (!reports_.add(record)) return;
   result_.first_step = reports_.first_step();
+  const std::uint64_t step = record.report.step.value;
+  if (result_.first_step && step < *result_.first_step + settings_.steps) {
+    waiting_.add(record.report);
+  }
   note_progress();
 }
 
@@ -52,6 +57,7 @@ LabRunActions LabRun::advance(Nanoseconds now) {
     return actions;
   }
   note_time(now);
+  actions.stuck = waiting_.take_notices();
   if (phase_ == Phase::kGathering) {
     gather(actions);
   }
@@ -196,6 +202,10 @@ void LabRun::leave_running_phases(LabRunActions& actions) {
     const std::set<std::string>& gone = attendance_.dropped();
     if (settings_.on_death == OnDeath::kContinue && !gone.empty()) {
       fail(kExitDied, fmt::format("died and not back: {}", fmt::join(gone, ", ")));
+    }
+    if (const std::string stuck = waiting_.stuck_line();
+        phase_ == Phase::kRunning && !stuck.empty()) {
+      fail(kExitStuck, stuck);
     }
     stop(actions);
   }

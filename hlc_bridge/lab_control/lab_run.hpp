@@ -9,6 +9,7 @@
 
 #include "hlc_bridge/lab_control/attendance.hpp"
 #include "hlc_bridge/lab_control/reported_steps.hpp"
+#include "hlc_bridge/lab_control/waiting_vehicles.hpp"
 #include "hlc_bridge/messages/death.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/instant.hpp"
@@ -48,6 +49,7 @@ inline constexpr Nanoseconds kInterruptTime = 700'000'000;
 struct LabRunActions {
   std::vector<Death> deaths;         ///< for the log and the operator
   std::vector<std::string> returns;  ///< dead processes that are back; for the log and the operator
+  std::vector<std::string> stuck;    ///< a line for each vehicle that has become stuck; for the log
   std::optional<RunPhase> run_state;  ///< to be published
   std::vector<Nanoseconds> triggers;  ///< SystemTriggers to be sent, in this order
 };
@@ -77,9 +79,10 @@ struct LabRunResult {
 ///
 /// Step k0 is the first that a controller reports as not standby. The run continues for one period
 /// after the last of its `steps` steps, so that the pose at the end of that step is recorded, too;
-/// a run in which a controller never leaves standby has failed (3). An interruption or a
-/// controller's stop request leads from any phase to braking. The two kinds of run, LogicalRun and
-/// RealTimeRun, define how time advances.
+/// a run in which a controller never leaves standby has failed (3). A run that was driven to its
+/// end ends with 6 if a vehicle is stuck then (planner/coordination/waiting.hpp). An interruption
+/// or a controller's stop request leads from any phase to braking. The two kinds of run, LogicalRun
+/// and RealTimeRun, define how time advances.
 class LabRun {
  public:
   enum class Phase : std::uint8_t { kGathering, kRunning, kMinimalRiskStop, kBraking, kFinished };
@@ -191,6 +194,7 @@ class LabRun {
   LabRunResult result_;
   Attendance attendance_;
   ReportedSteps reports_;
+  WaitingVehicles waiting_;
   bool is_end_requested_{};  ///< interrupted, or a controller requested the stop
   bool progress_{};
   bool started_{};

@@ -9,6 +9,12 @@ inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitMissing = 3;  ///< a participant did not appear in time
 inline constexpr int kExitDied = 4;     ///< a process died during the run, or this process failed
 inline constexpr int kExitDrivenBadly = 5;  ///< see driving_fault in driving_fault.hpp
+inline constexpr int kExitStuck = 6;        ///< driven to the end, but a vehicle was stuck then
 inline constexpr int kExitInterrupted = 130;
+
+/// Of a lab control: all steps were driven.
+[[nodiscard]] constexpr bool is_driven_to_end(int exit_code) {
+  return exit_code == kExitGood || exit_code == kExitStuck;
+}
 
 }  // namespace hlc

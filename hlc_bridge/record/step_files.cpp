@@ -1,6 +1,7 @@
 #include "hlc_bridge/record/step_files.hpp"
 
 #include "hlc_bridge/record/report_file.hpp"
+#include "hlc_bridge/result/waits.hpp"
 #include "planner/common/csv.hpp"
 
 namespace hlc::record {
@@ -8,7 +9,7 @@ std::string steps_csv(std::span<const result::StepRecord> rows) {
   std::string text =
       "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,driven_x_m,"
       "driven_y_m,driven_yaw_rad,cost_m2,generated,expanded,level,coupled,missing,deviation_m,"
-      "quality,gap_m2,maneuver,subgraph\n";
+      "quality,gap_m2,maneuver,subgraph,waits_for,waits_since\n";
   for (const result::StepRecord& row : rows) {
     const coordination::Report& report = row.record.report;
     const Pose& planned = report.planned_pose;
@@ -22,7 +23,7 @@ std::string steps_csv(std::span<const result::StepRecord> rows) {
                     report.generated, report.expanded, report.level, ids_to_text(report.coupled),
                     ids_to_text(report.missing), report.deviation_m,
                     coordination::to_string(report.quality), report.gap_m2, report.maneuver,
-                    report.subgraph)
+                    report.subgraph, ids_to_text(report.waiting.vehicles), result::waits_since(row))
                 .text();
   }
   return text;

@@ -22,6 +22,12 @@ Json figures(const std::optional<result::Statistics>& value, double factor,
   return json;
 }
 
+Json numbers(const std::vector<VehicleId>& ids) {
+  Json json = Json::array();
+  for (const VehicleId id : ids) json.push_back(id.value);
+  return json;
+}
+
 Json vehicle_json(const result::VehicleSummary& vehicle) {
   Json json;
   json["id"] = vehicle.id.value;
@@ -54,6 +60,10 @@ Json vehicle_json(const result::VehicleSummary& vehicle) {
                                     {{"mean", &result::Statistics::mean},
                                      {"std", &result::Statistics::std},
                                      {"max", &result::Statistics::max}});
+  json["longest_wait"] = vehicle.wait ? Json{{"duration_s", vehicle.wait->duration_s},
+                                             {"since_step", vehicle.wait->since_step},
+                                             {"waits_for", numbers(vehicle.wait->vehicles)}}
+                                      : Json(nullptr);
   return json;
 }
 
@@ -86,6 +96,8 @@ std::string summary_json(const result::RunSummary& summary) {
   json["engine"] = run.engine;
   json["expanded_vertices_sum_max"] = summary.expanded_vertices_sum_max;
   json["policy"] = run.policy;
+  json["longest_wait_s"] = result::longest_wait_s(summary);
+  json["stuck_vehicles"] = numbers(result::stuck_vehicles(summary));
   return json.dump(2) + "\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/result/encounters.hpp"
 #include "hlc_bridge/result/planned_motion.hpp"
 #include "hlc_bridge/result/trace_hash.hpp"
@@ -160,7 +161,8 @@ void add_tracking(std::span<const StepRecord* const> rows, const Drive& drive, N
 std::size_t unreported_steps(std::span<const StepRecord* const> own, const RunFacts& facts,
                              std::span<const StepRecord> rows) {
   const std::uint64_t reported = rows.empty() ? 0 : rows.back().step + 1;
-  const std::uint64_t steps = facts.exit_code == 0 ? facts.steps : std::min(facts.steps, reported);
+  const std::uint64_t steps =
+      is_driven_to_end(facts.exit_code) ? facts.steps : std::min(facts.steps, reported);
   const auto there = std::ranges::count_if(own, [&](const auto* row) { return row->step < steps; });
   return steps - std::min<std::size_t>(steps, static_cast<std::size_t>(there));
 }
@@ -180,6 +182,9 @@ VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
   summary.steps = own.size();
   add_route(vehicle, own, description.step_s, summary);
   add_search(own, description.step_s, summary);
+  summary.wait = longest_wait(own, description.step_s);
+  summary.is_stuck =
+      !own.empty() && coordination::is_stuck(own.back()->record.report, description.step_s);
   if (!facts.simulated_time) {
     summary.deadline_misses += unreported_steps(own, facts, rows);
   }

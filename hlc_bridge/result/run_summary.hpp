@@ -7,6 +7,7 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 #include "hlc_bridge/result/statistics.hpp"
+#include "hlc_bridge/result/waits.hpp"
 
 namespace hlc::result {
 
@@ -37,6 +38,8 @@ struct VehicleSummary {
   std::size_t fallback_steps{};
   std::size_t undrivable_steps{};  ///< steps whose new plan or command was beyond the lab's limits
   std::size_t deadline_misses{};   ///< late, or (real time) without a report: list not answered
+  std::optional<Wait> wait;        ///< the longest; none: it never waited
+  bool is_stuck{};                 ///< in its last step (planner/coordination/waiting.hpp)
 };
 
 struct Host {

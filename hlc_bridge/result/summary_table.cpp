@@ -43,6 +43,54 @@ std::string row(const VehicleSummary& vehicle) {
       vehicle.fallback_steps, vehicle.deadline_misses);
 }
 
+/// As many as fit into a line.
+std::string joined(const std::vector<VehicleId>& ids, std::size_t most) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, ids.size()); ++i) {
+    text += fmt::format("{}{}", i == 0 ? "" : " ", ids[i].value);
+  }
+  return text + (ids.size() > most ? " ..." : "");
+}
+
+/// Nothing if no vehicle waited.
+std::string waiting_lines(const RunSummary& summary) {
+  const double longest_s = longest_wait_s(summary);
+  const auto who = std::ranges::find_if(summary.vehicles, [&](const VehicleSummary& vehicle) {
+    return vehicle.wait && vehicle.wait->duration_s == longest_s;
+  });
+  if (who == summary.vehicles.end()) return "";
+  std::string text = fmt::format(
+      "  longest wait for others                      {:.1f} s, vehicle {} for {}, from {:.1f} s "
+      "on\n",
+      longest_s, who->id.value, joined(who->wait->vehicles, 8),
+      static_cast<double>(who->wait->since_step) * summary.description.step_s);
+  if (const std::vector<VehicleId> stuck = stuck_vehicles(summary); !stuck.empty()) {
+    text += fmt::format("  stuck at the end: vehicles                   {}\n", joined(stuck, 20));
+  }
+  return text;
+}
+
+std::string legend(const RunSummary& summary) {
+  std::string text =
+      "\nMeans are followed by standard deviations in parentheses, or by \"/\" and the maximum.\n"
+      "reference error  planned positions to the centre of the lane\n"
+      "lap              from the first plan's begin until the planned path completes one lap; -: "
+      "not "
+      "completed\n"
+      "vertices         of the search tree, with its root and those never expanded\n"
+      "p99              99 of 100 plans took no longer\n"
+      "tracking error   driven to planned position at the same instant, every 20 ms\n"
+      "fallb.           steps in which the previous plan stayed in force\n"
+      "late             steps in which a deadline was missed (real time)\n";
+  if (longest_wait_s(summary) > 0.0) {
+    text += fmt::format(
+        "wait             the vehicle stands, though without the others it would drive; stuck: for "
+        "{:.0f} s\n",
+        coordination::kStuckAfter_s);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string summary_table(const RunSummary& summary) {
@@ -83,24 +131,14 @@ std::string summary_table(const RunSummary& summary) {
         "  plans cut off by the search's budget         up to {:.1f} % of a vehicle's\n",
         100.0 * budget_share);
   }
+  text += waiting_lines(summary);
   text += fmt::format(
       "  wall time, real-time factor                  {:.2f} s, {:.1f}\n"
       "  planned and driven poses, SHA-256  {}\n"
       "  program, host                                {}, {}, {} cores, {}\n",
       summary.wall_s, summary.realtime_factor, summary.trace_sha256, summary.revision,
       summary.host.cpu, summary.host.cores, summary.host.kernel);
-  text +=
-      "\nMeans are followed by standard deviations in parentheses, or by \"/\" and the maximum.\n"
-      "reference error  planned positions to the centre of the lane\n"
-      "lap              from the first plan's begin until the planned path completes one lap; -: "
-      "not "
-      "completed\n"
-      "vertices         of the search tree, with its root and those never expanded\n"
-      "p99              99 of 100 plans took no longer\n"
-      "tracking error   driven to planned position at the same instant, every 20 ms\n"
-      "fallb.           steps in which the previous plan stayed in force\n"
-      "late             steps in which a deadline was missed (real time)\n";
-  return text;
+  return text + legend(summary);
 }
 
 }  // namespace hlc::result

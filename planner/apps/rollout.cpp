@@ -25,14 +25,18 @@ struct Tally {
   std::uint64_t generated_max{};
   std::uint64_t expanded_max{};
   int fallbacks{};
+  double longest_wait_s{};
+  hlc::coordination::Report last;
   int changed{};  ///< steps in which the others changed the plan
 };
 
-void add(Tally& tally, const hlc::coordination::Report& report) {
+void add(Tally& tally, const hlc::coordination::Report& report, double step_s) {
   tally.positions_m.push_back(report.planned_pose.position_m());
   tally.generated_max = std::max(tally.generated_max, report.generated);
   tally.expanded_max = std::max(tally.expanded_max, report.expanded);
   if (report.status == hlc::coordination::StepStatus::kFallback) ++tally.fallbacks;
+  tally.longest_wait_s = std::max(tally.longest_wait_s, hlc::coordination::wait_s(report, step_s));
+  tally.last = report;
 }
 
 void print(const Tally& tally, const hlc::scenario::ScenarioVehicle& vehicle, double step_s) {
@@ -48,10 +52,11 @@ void print(const Tally& tally, const hlc::scenario::ScenarioVehicle& vehicle, do
   const std::optional<double> lap_s =
       hlc::road::lap_s(vehicle.path, progress, times_s, hlc::road::kFirstStepDriven);
   const std::string lap = lap_s ? fmt::format("{:.2f}", *lap_s) : "-";
-  std::printf("%-10s %8s %12.1f %11.1f %14llu %13llu %10d %8d\n", vehicle.name.c_str(), lap.c_str(),
-              1e3 * sum_m / static_cast<double>(times_s.size()), 1e3 * max_m,
+  std::printf("%-10s %8s %12.1f %11.1f %14llu %13llu %10d %8d %9.1f\n", vehicle.name.c_str(),
+              lap.c_str(), 1e3 * sum_m / static_cast<double>(times_s.size()), 1e3 * max_m,
               static_cast<unsigned long long>(tally.generated_max),
-              static_cast<unsigned long long>(tally.expanded_max), tally.fallbacks, tally.changed);
+              static_cast<unsigned long long>(tally.expanded_max), tally.fallbacks, tally.changed,
+              tally.longest_wait_s);
 }
 
 /// True if the plan of this step would be different without the other vehicles.
@@ -76,22 +81,30 @@ int run(const hlc::scenario::ScenarioChoices& choices) {
   std::chrono::steady_clock::duration wall{};
   for (std::size_t i = 0; i < scenario.steps; ++i) {
     const auto begin = std::chrono::steady_clock::now();
-    const std::vector<hlc::coordination::Report> reports = rollout.step();
+    std::vector<hlc::coordination::Report> reports = rollout.step();
     wall += std::chrono::steady_clock::now() - begin;
     for (std::size_t j = 0; j < reports.size(); ++j) {
-      const hlc::coordination::Report& report = reports[j];
+      hlc::coordination::Report& report = reports[j];
+      rollout.controllers()[j]->note_waiting(report);
       Tally& tally = tallies[report.vehicle];
-      add(tally, report);
+      add(tally, report, step_s);
       if (others_changed_the_plan(*rollout.controllers()[j], *alone, report)) ++tally.changed;
     }
   }
   const double wall_ms = 1e3 * std::chrono::duration<double>(wall).count();
 
-  std::printf("%-10s %8s %12s %11s %14s %13s %10s %8s\n", "vehicle", "lap [s]", "error [mm]",
-              "max [mm]", "max generated", "max expanded", "fallbacks", "changed");
+  std::printf("%-10s %8s %12s %11s %14s %13s %10s %8s %9s\n", "vehicle", "lap [s]", "error [mm]",
+              "max [mm]", "max generated", "max expanded", "fallbacks", "changed", "wait [s]");
   for (const auto& [id, tally] : tallies)
     print(tally, hlc::scenario::vehicle_of(scenario, id), step_s);
-  std::printf("changed: steps in which the others changed the vehicle's plan\n");
+  std::printf(
+      "changed: steps in which the others changed the vehicle's plan; wait: the longest, of a "
+      "vehicle that stood\nthough without the others it would have driven\n");
+  for (const auto& [id, tally] : tallies) {
+    if (!hlc::coordination::is_stuck(tally.last, step_s)) continue;
+    std::printf("stuck at the end: %s\n",
+                hlc::coordination::waiting_text(tally.last, step_s).c_str());
+  }
   std::printf("%zu steps in %.1f ms\n", scenario.steps, wall_ms);
   return 0;
 }

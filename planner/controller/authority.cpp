@@ -71,9 +71,9 @@ std::optional<ConvexPolygon> Authority::bar_m(const RouteTracker& tracker,
   const double s_m = claim_.place_m + claim_.ahead_m + footprint.length_m / 2.0 + kBehindEnd_m +
                      kBarLength_m / 2.0;
   const Point centre_m = path.at(s_m);
-  return footprint_area({kBarLength_m, footprint.width_m + kBarWider_m},
-                        {centre_m.x(), centre_m.y(),
-                         road::chord_heading_rad(path, s_m, kHalfChord_m)});
+  return footprint_area(
+      {kBarLength_m, footprint.width_m + kBarWider_m},
+      {centre_m.x(), centre_m.y(), road::chord_heading_rad(path, s_m, kHalfChord_m)});
 }
 
 }  // namespace hlc::controller

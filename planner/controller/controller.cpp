@@ -29,10 +29,6 @@ coordination::FallbackReason reason_of(coordination::CommitVerdict verdict) {
   return coordination::FallbackReason::kNone;
 }
 
-bool holds(const std::vector<VehicleId>& vehicles, VehicleId vehicle) {
-  return std::ranges::find(vehicles, vehicle) != vehicles.end();
-}
-
 }  // namespace
 
 Controller::Controller(const ControllerOptions& options,
@@ -116,6 +112,7 @@ coordination::Traffic Controller::observe(const Observation& observation) {
   step_.report.deviation_m = check.deviation_m;
   if (check.is_disturbed) step_.obstacle = coordination::FallbackReason::kDeviation;
   step_.is_vehicle_lost = check.is_lost;
+  step_.is_disturbed = check.is_disturbed;
   if (check.is_reanchored) drivable_area_.depart();
   step_.report.subgraph = subgraph().spec().name;
   report_plan_in_force(step_.report);
@@ -215,9 +212,8 @@ std::optional<double> Controller::path_s_m_of(const Point& position_m) const {
   return tracker_.project(position_m, reach_m());
 }
 
-search::HorizonProblem Controller::problem_in(const road::Corridor& corridor) const {
-  const double end_s_m = authority_ ? authority_->end_s_m(tracker_.s_m().value())
-                                    : std::numeric_limits<double>::infinity();
+search::HorizonProblem Controller::problem_in(const road::Corridor& corridor,
+                                              double end_s_m) const {
   return problem_alone(step_.traffic, tracker_, corridor, reach_m(), subgraph().automaton(),
                        options_, end_s_m);
 }
@@ -254,33 +250,16 @@ LaneEntry Controller::find_lane_entry() {
       });
 }
 
-std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
-  std::vector<CoupledVehicle> coupled_vehicles;
-  for (const VehicleId other : coupled()) {
-    const auto respected = step_.respected.find(other);
-    coupled_vehicles.push_back(
-        {.traffic = &neighbours_.traffic_of(other),
-         .prediction = respected == step_.respected.end() ? nullptr : &respected->second,
-         .is_predecessor = options_.strategies.plans_before(other, options_.vehicle)});
-  }
-  std::vector<MissingVehicle> missing;
-  for (const VehicleId other : neighbours_.missing()) {
-    missing.push_back(
-        {.measured = step_.observation.measured(other),
-         .stands_for_good = neighbours_.stands_for_good(other, options_.horizon_steps)});
-  }
-  return controller::obstacles_m(coupled_vehicles, options_.strategies.coordination.obstacles,
-                                 missing, neighbours_.rules(), step_.observation.step,
-                                 options_.horizon_steps, subgraph().automaton().step_s);
+search::HorizonProblem Controller::posed_alone(double end_s_m) const {
+  return problem_in(entry_area() ? *entry_area() : route().corridor, end_s_m);
 }
 
 search::HorizonProblem Controller::pose_problem() const {
-  search::HorizonProblem problem = problem_in(entry_area() ? *entry_area() : route().corridor);
+  search::HorizonProblem problem =
+      posed_alone(authority_ ? authority_->end_s_m(tracker_.s_m().value()) : kNoEnd_m);
   problem.obstacles_m = obstacles_m();
   if (authority_) {
-    if (const auto bar_m =
-            authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint)) {
-      problem.obstacles_m.resize(options_.horizon_steps);
+    if (const auto bar_m = authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint)) {
       for (auto& areas_m : problem.obstacles_m) areas_m.push_back(*bar_m);
     }
   }
@@ -394,15 +373,17 @@ coordination::Report Controller::commit(std::span<const coordination::Prediction
   if (!options_.strategies.coordination.commit.needs_votes) note_awaited(predictions);
   if (!step_.candidate.plan) return finish(false, step_.obstacle);
   const coordination::CommitVerdict verdict = decide(predictions, outcomes);
+  if (verdict == coordination::CommitVerdict::kFallback) note_opposed(outcomes);
   return finish(verdict == coordination::CommitVerdict::kInForce, reason_of(verdict));
 }
 
-/// For announced_plans; the predecessors' are known already.
+/// For announced_plans and note_waiting; the predecessors' are known already.
 void Controller::note_awaited(std::span<const coordination::Prediction> predictions) {
   for (const VehicleId other : coupled()) {
     if (step_.respected.contains(other)) continue;
     const coordination::Prediction* message =
         find_message(predictions, other, step_.observation.step);
+    if (message == nullptr) step_.not_received.push_back(other);
     if (message != nullptr && message->is_new) step_.awaited[other] = message->areas;
   }
 }

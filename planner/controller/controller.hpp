@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "planner/controller/plan_in_force.hpp"
 #include "planner/controller/prepared_subgraph.hpp"
 #include "planner/controller/route_tracker.hpp"
+#include "planner/controller/waits_for.hpp"
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/report.hpp"
 #include "planner/road/corridor.hpp"
@@ -116,6 +118,12 @@ class Controller {
   /// Instead of the remaining phases: a deadline has passed, the plan in force stays.
   [[nodiscard]] coordination::Report fall_back(coordination::FallbackReason reason);
 
+  /// After the last phase of every step, once the command is published: enters in the step's report
+  /// for which vehicles this one waits (waits_for.hpp), and since when. Changes no plan. Searches
+  /// once if the plan in force stands. A late step is not examined: the waiting of the step before
+  /// lasts.
+  void note_waiting(coordination::Report& report);
+
   /// Valid after `couple`: the senders that the phases need.
   [[nodiscard]] const std::vector<VehicleId>& predecessors() const { return step_.predecessors; }
   [[nodiscard]] const std::vector<VehicleId>& coupled() const { return step_.report.coupled; }
@@ -182,9 +190,12 @@ class Controller {
         awaited;  ///< new plans of other coupled vehicles
     PlanCandidate candidate;
     coordination::Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
+    std::vector<VehicleId> not_received;  ///< coupled, no prediction when this one committed
+    std::vector<VehicleId> opposed;       ///< voted against the plan, or did not vote
     coordination::FallbackReason obstacle{
         coordination::FallbackReason::kNone};  ///< why nothing new may be planned
     bool is_vehicle_lost{};
+    bool is_disturbed{};  ///< DeviationCheck
 
     [[nodiscard]] StepIndex next() const { return {observation.step.value + 1}; }
   };
@@ -196,11 +207,23 @@ class Controller {
   void respect_predecessors(std::span<const coordination::Prediction> received);
   void check_start();
   [[nodiscard]] double reach_m() const { return search_.reach_m(step_.traffic.next_trim); }
-  [[nodiscard]] search::HorizonProblem problem_in(const road::Corridor& corridor) const;
+  static constexpr double kNoEnd_m = std::numeric_limits<double>::infinity();
+  [[nodiscard]] search::HorizonProblem problem_in(const road::Corridor& corridor,
+                                                  double end_s_m = kNoEnd_m) const;
   void update_drivable_area();
   [[nodiscard]] LaneEntry find_lane_entry();
+  [[nodiscard]] search::HorizonProblem posed_alone(double end_s_m = kNoEnd_m) const;
   [[nodiscard]] search::HorizonProblem pose_problem() const;
+  [[nodiscard]] CoupledVehicle coupled_vehicle(VehicleId other) const;
+  [[nodiscard]] MissingVehicle missing_vehicle(VehicleId other) const;
+  [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m(
+      std::span<const CoupledVehicle> coupled_vehicles,
+      std::span<const MissingVehicle> missing) const;
   [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m() const;
+  void note_opposed(std::span<const coordination::Outcome> outcomes);
+  [[nodiscard]] std::optional<MotionAlone> motion_alone();
+  [[nodiscard]] OtherVehicle as_obstacle(VehicleId coupled) const;
+  [[nodiscard]] std::vector<OtherVehicle> other_vehicles() const;
   void search_candidate();
   void note_awaited(std::span<const coordination::Prediction> predictions);
   [[nodiscard]] coordination::CommitVerdict decide(
@@ -218,6 +241,7 @@ class Controller {
   bool minimal_risk_stop_{false};
   Step step_;
   std::optional<search::HorizonProblem> former_problem_;  ///< for `warm_up`
+  coordination::Waiting waiting_;                         ///< in the last step
 };
 
 }  // namespace hlc::controller

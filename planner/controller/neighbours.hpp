@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <span>
@@ -11,6 +12,10 @@
 #include "planner/coordination/missing.hpp"
 
 namespace hlc::controller {
+
+[[nodiscard]] inline bool holds(std::span<const VehicleId> vehicles, VehicleId vehicle) {
+  return std::ranges::find(vehicles, vehicle) != vehicles.end();
+}
 
 bool is_well_formed(const coordination::Outcome& outcome);
 

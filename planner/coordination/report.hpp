@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/coordination/messages.hpp"
+#include "planner/coordination/waiting.hpp"
 
 namespace hlc::coordination {
 
@@ -70,6 +71,7 @@ struct Report {
   /// footprint_deviation_m, at the time of the measured state; for a vehicle that fits no route,
   /// how far its footprint reaches beyond the lanes of the nearest.
   double deviation_m{};
+  Waiting waiting{};  ///< for which vehicles it stands, and since when
 };
 
 }  // namespace hlc::coordination

@@ -40,8 +40,8 @@ void ConflictMap::add_route(const road::DrivableRoute& route,
     const Point point_m = route.driving_line.at(route.path, s_m);
     const Pose pose{point_m.x(), point_m.y(),
                     road::chord_heading_rad(route.path, s_m, kHalfChord_m)};
-    const double slip = vehicle.rear_axle_to_cg_m *
-                        road::chord_curvature_per_m(route.path, s_m, kCurvatureChord_m);
+    const double slip =
+        vehicle.rear_axle_to_cg_m * road::chord_curvature_per_m(route.path, s_m, kCurvatureChord_m);
     Pose turned = pose;
     turned.heading_rad -= std::asin(std::clamp(slip, -kMostSlip, kMostSlip));
     cells.push_back({.pose = pose, .area_m = footprint_area(footprint, turned)});

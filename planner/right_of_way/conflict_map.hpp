@@ -38,8 +38,8 @@ struct ConflictRules {
 class ConflictMap {
  public:
   /// @pre every path is closed
-  ConflictMap(std::span<const road::DrivableRoute> routes, const vehicle::VehicleParameters& vehicle,
-              const ConflictRules& rules = {});
+  ConflictMap(std::span<const road::DrivableRoute> routes,
+              const vehicle::VehicleParameters& vehicle, const ConflictRules& rules = {});
 
   [[nodiscard]] std::size_t num_routes() const { return routes_.size(); }
   [[nodiscard]] std::size_t num_cells(std::size_t route) const { return routes_[route].size(); }

@@ -71,8 +71,8 @@ class Grants {
     const coordination::LaneClaim& claim = holders_[who].claim;
     const CellNumber from = cell_of(claim.route, claim.place_m);
     const CellNumber to = cell_of(claim.route, claim.place_m + ahead_m_[who]);
-    const auto behind_from = static_cast<CellNumber>(
-        on_route(claim.route, static_cast<CellNumber>(cell) - from));
+    const auto behind_from =
+        static_cast<CellNumber>(on_route(claim.route, static_cast<CellNumber>(cell) - from));
     return behind_from <= to - from;
   }
 

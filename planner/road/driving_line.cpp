@@ -100,8 +100,8 @@ double chord_heading_rad(const ReferencePath& path, double s_m, double half_chor
 
 double chord_curvature_per_m(const ReferencePath& path, double s_m, double chord_m) {
   const double half_m = chord_m / 2.0;
-  const double turned_rad = chord_heading_rad(path, s_m + half_m, half_m) -
-                            chord_heading_rad(path, s_m - half_m, half_m);
+  const double turned_rad =
+      chord_heading_rad(path, s_m + half_m, half_m) - chord_heading_rad(path, s_m - half_m, half_m);
   return wrap_angle(turned_rad) / chord_m;
 }
 

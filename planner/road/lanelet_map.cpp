@@ -4,10 +4,10 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <limits>
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 

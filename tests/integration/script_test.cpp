@@ -72,6 +72,25 @@ TEST_F(Scripts, RunLabPrintsTheTableAndLeavesNobodyBehind) {
       << "a process of the run is left";
 }
 
+// Cars 1, 2 and 3 stand in each other's way forever.
+TEST_F(Scripts, RunLabTellsThatCarsAreStuckAtTheEnd) {
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run =
+      run_lab({"--scenario", "circle", "--cars", "6", "--steps", "115", "--out", out.string()});
+  ASSERT_EQ(run.wait_for(240s), 6) << output();
+  EXPECT_NE(output().find("stuck at the end: vehicles                   1 2 3\n"),
+            std::string::npos)
+      << output();
+  const auto summary = nlohmann::json::parse(read_text(out / "summary.json"), nullptr, false);
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary["stuck_vehicles"].dump(), "[1,2,3]");
+  const std::string log = read_text(out / "logs" / "high_level_controller_2.log");
+  const std::string stuck = "stuck: vehicle 2, waiting for 1, 3 for 20.0 s";
+  const std::size_t first = log.find(stuck);
+  EXPECT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find("stuck: ", first + 1), std::string::npos) << "once";
+}
+
 TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
   const std::filesystem::path out = folder_ / "run";
   ChildProcess run = run_lab(

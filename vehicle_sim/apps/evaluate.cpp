@@ -152,8 +152,10 @@ int run(Choices choices, const std::string& command) {
       hlc::apps::drive_campaign(campaign, choices.jobs, choices.keep_runs, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   files.finish(origin_of(command));
-  std::printf("%zu runs, %zu failed, %.1f s; %s\n", campaign.runs().size(), failed, wall_s,
-              (choices.out / "table.md").c_str());
+  const auto stuck = std::ranges::count_if(
+      files.figures(), [](const hlc::campaign::RunFigures& run) { return run.stuck_vehicles > 0; });
+  std::printf("%zu runs, %zu failed, %td with a car stuck at the end, %.1f s; %s\n",
+              campaign.runs().size(), failed, stuck, wall_s, (choices.out / "table.md").c_str());
   if (!campaign.plan().policies.empty()) {
     std::printf("\n%s", hlc::campaign::tradeoff_markdown(files.figures()).c_str());
   }

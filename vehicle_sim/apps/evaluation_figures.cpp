@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
@@ -140,7 +141,7 @@ class Drawing {
         // A failed run is recorded with its reason among the campaign's.
         try {
           campaign::DrivenRun run = campaign_.drive(i, choices_.clocks);
-          if (run.experiment.facts.exit_code != 0) continue;
+          if (!is_driven_to_end(run.experiment.facts.exit_code)) continue;
           if (const std::string fault = campaign_.result_of(run).fault; !fault.empty()) {
             choices_.log("among them " + campaign::run_name(run) +
                          ", which does not count: " + fault);

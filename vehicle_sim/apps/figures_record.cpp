@@ -30,12 +30,14 @@ constexpr Column<double> kOfAll[] = {
     {"generated_sum_max", &campaign::RunFigures::generated_sum_max},
     {"expanded_max", &campaign::RunFigures::expanded_max},
     {"expanded_sum_max", &campaign::RunFigures::expanded_sum_max},
-    {"deviation_max_mm", &campaign::RunFigures::deviation_max_mm}};
+    {"deviation_max_mm", &campaign::RunFigures::deviation_max_mm},
+    {"longest_wait_s", &campaign::RunFigures::longest_wait_s}};
 
 constexpr Column<std::size_t> kCounts[] = {
     {"fallback_steps", &campaign::RunFigures::fallback_steps},
     {"collisions", &campaign::RunFigures::collisions},
-    {"switches", &campaign::RunFigures::switches}};
+    {"switches", &campaign::RunFigures::switches},
+    {"stuck_vehicles", &campaign::RunFigures::stuck_vehicles}};
 
 constexpr Column<double> kTimes[] = {
     {"planning_mean_ms", &campaign::RunFigures::planning_mean_ms},

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/result/driving_fault.hpp"
 #include "hlc_bridge/result/run_description.hpp"
 #include "planner/common/yaml_text.hpp"
@@ -148,7 +149,7 @@ CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> nois
                          std::uint64_t first_step, std::span<const policy::SpeedZone> zones) {
   const closed_loop::Experiment& experiment = run.experiment;
   result::RunFacts facts = experiment.facts;
-  if (facts.exit_code != 0) throw std::runtime_error(facts.reason);
+  if (!is_driven_to_end(facts.exit_code)) throw std::runtime_error(facts.reason);
   std::vector<result::StepRecord> rows =
       result::step_records(experiment.reports, experiment.drives, facts);
   std::erase_if(rows,

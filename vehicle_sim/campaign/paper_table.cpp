@@ -98,6 +98,21 @@ std::vector<TableQuantity> search_effort() {
   };
 }
 
+std::vector<TableQuantity> waiting() {
+  return {
+      {"Longest wait for other cars [s]",
+       "longest_wait_s",
+       1,
+       [](const RunFigures& run) { return std::optional(run.longest_wait_s); },
+       {}},
+      {"Runs with a car stuck at the end [%]",
+       "stuck_percent",
+       0,
+       [](const RunFigures& run) { return std::optional(run.stuck_vehicles > 0 ? 100.0 : 0.0); },
+       {}},
+  };
+}
+
 std::vector<TableQuantity> whole_run() {
   return {
       {"Fallback steps",
@@ -153,7 +168,7 @@ std::vector<TableQuantity> whole_run() {
 const std::vector<TableQuantity>& table_quantities() {
   static const std::vector<TableQuantity> all = [] {
     std::vector<TableQuantity> rows = accuracy_and_lap();
-    for (const auto& more : {search_effort(), whole_run()}) {
+    for (const auto& more : {search_effort(), waiting(), whole_run()}) {
       rows.insert(rows.end(), more.begin(), more.end());
     }
     return rows;

@@ -71,6 +71,8 @@ RunFigures with_figures(RunFigures heading, const CampaignResult& result) {
   figures.generated_sum_max = static_cast<double>(summary.generated_vertices_sum_max);
   figures.expanded_sum_max = static_cast<double>(summary.expanded_vertices_sum_max);
   figures.collisions = summary.collisions;
+  figures.longest_wait_s = result::longest_wait_s(summary);
+  figures.stuck_vehicles = result::stuck_vehicles(summary).size();
   add_planning(summary.vehicles, figures);
   figures.wall_s = summary.wall_s;
   figures.wall_planning_s = result.wall.planning_s;

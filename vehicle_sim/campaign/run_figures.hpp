@@ -41,6 +41,8 @@ struct RunFigures {
   double wall_vehicles_s{};
   std::size_t fallback_steps{};
   std::size_t collisions{};
+  double longest_wait_s{};             ///< for others (planner/coordination/waiting.hpp)
+  std::size_t stuck_vehicles{};        ///< at the end of the run
   std::optional<double> effort_per_m;  ///< DrivenCosts
   std::optional<double> comfort_per_m;
   std::optional<double> above_limit_share;  ///< ZoneExcess

@@ -36,7 +36,8 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<RunFigures>& runs) {
   for (const SweepAxis& axis : sweep.plan().axes) text += "," + axis.setting;
   text +=
       ",lap_s,error_mean_mm,error_std_mm,generated_max,generated_sum_max,expanded_max,"
-      "expanded_sum_max,deviation_max_mm,fallback_steps,distance,failure\n";
+      "expanded_sum_max,deviation_max_mm,fallback_steps,longest_wait_s,stuck_vehicles,distance,"
+      "failure\n";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const SweepRun& what = sweep.runs()[i];
     const RunFigures& run = runs[i];
@@ -54,7 +55,9 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<RunFigures>& runs) {
       line.add(was_driven ? number(value, 0) : "");
     }
     line.add(was_driven ? number(run.deviation_max_mm, 2) : "",
-             was_driven ? fmt::to_string(run.fallback_steps) : "", distances[what.combination],
+             was_driven ? fmt::to_string(run.fallback_steps) : "",
+             was_driven ? number(run.longest_wait_s, 1) : "",
+             was_driven ? fmt::to_string(run.stuck_vehicles) : "", distances[what.combination],
              without_commas(run.failure));
     text += line.text();
   }

@@ -76,6 +76,9 @@ TEST(OwnConversionRefuses, VehicleIdsOutside1To30) {
     report = good<ReportRecord>();
     report.report.missing.push_back(vehicle);
     EXPECT_TRUE(is_refused(report));
+    report = good<ReportRecord>();
+    report.report.waiting.vehicles.push_back(vehicle);
+    EXPECT_TRUE(is_refused(report));
   }
   EXPECT_FALSE(is_refused(good<coordination::Traffic>()));
   EXPECT_TRUE(can_be_written(good<coordination::Traffic>()));
@@ -135,6 +138,15 @@ TEST(OwnConversionRefuses, NumbersThatAreNotFinite) {
   EXPECT_TRUE(is_refused(report));
   report = good<ReportRecord>();
   report.report.deviation_m = kNan;
+  EXPECT_TRUE(is_refused(report));
+}
+
+TEST(OwnConversionRefuses, AWaitThatBeginsAfterItsStep) {
+  auto report = good<ReportRecord>();
+  report.report.step = {200};
+  report.report.waiting = {.vehicles = {{2}}, .since = {200}};
+  EXPECT_FALSE(is_refused(report));
+  report.report.waiting.since = {201};
   EXPECT_TRUE(is_refused(report));
 }
 

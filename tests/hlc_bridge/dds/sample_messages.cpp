@@ -136,9 +136,12 @@ void put_message(std::ostream& out, const coordination::Outcome& value) {
   const auto& [a, b, c] = value;
   put_all(out, a, b, c);
 }
+void put_message(std::ostream& out, const coordination::Waiting& value) {
+  put_all(out, value.vehicles, value.since);
+}
 void put_message(std::ostream& out, const coordination::Report& value) {
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = value;
-  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = value;
+  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
 }
 void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d] = value;
@@ -441,23 +444,26 @@ coordination::Outcome sample(Random& random) {
 
 template <>
 ReportRecord sample(Random& random) {
-  const coordination::Report report{vehicle(random),
-                                    {random()},
-                                    static_cast<coordination::StepStatus>(whole(random, 3)),
-                                    static_cast<coordination::FallbackReason>(whole(random, 9)),
-                                    pose(random),
-                                    {whole(random, 100)},
-                                    words(random),
-                                    words(random),
-                                    number(random),
-                                    static_cast<coordination::PlanQuality>(whole(random, 2)),
-                                    number(random),
-                                    random(),
-                                    random(),
-                                    static_cast<std::uint32_t>(whole(random, 20)),
-                                    list(random, 5, vehicle),
-                                    list(random, 5, vehicle),
-                                    number(random)};
+  const std::uint64_t step = random();
+  const coordination::Report report{
+      vehicle(random),
+      {step},
+      static_cast<coordination::StepStatus>(whole(random, 3)),
+      static_cast<coordination::FallbackReason>(whole(random, 9)),
+      pose(random),
+      {whole(random, 100)},
+      words(random),
+      words(random),
+      number(random),
+      static_cast<coordination::PlanQuality>(whole(random, 2)),
+      number(random),
+      random(),
+      random(),
+      static_cast<std::uint32_t>(whole(random, 20)),
+      list(random, 5, vehicle),
+      list(random, 5, vehicle),
+      number(random),
+      {list(random, 5, vehicle), {step - std::min<std::uint64_t>(step, whole(random, 200))}}};
   return {report, random(), coin(random), random()};
 }
 

@@ -94,12 +94,13 @@ TEST_F(HlcMachineStep, TrafficGoesOutAloneAndTheCommandBeforeReportDrawingAndOwn
     for (const HlcAction& action : one.advance()) kinds.back().push_back(action.index());
   } while (one.is_due());
   const auto kind = [](const HlcAction& action) { return action.index(); };
-  ASSERT_THAT(kinds, SizeIs(4));
+  ASSERT_THAT(kinds, SizeIs(5));
   EXPECT_THAT(kinds[0], ElementsAre(kind(coordination::Traffic{})));
   EXPECT_THAT(kinds[1], ElementsAre(kind(coordination::Prediction{})));
-  EXPECT_THAT(kinds[2], ElementsAre(kind(TrajectoryCommand{}), kind(TrajectoryCommand{}),
-                                    kind(ReportRecord{}), kind(DrawStep{}), kind(AfterStep{})));
-  EXPECT_THAT(kinds[3], IsEmpty()) << "policies may look ahead then";
+  EXPECT_THAT(kinds[2], ElementsAre(kind(TrajectoryCommand{}), kind(TrajectoryCommand{})));
+  EXPECT_THAT(kinds[3], ElementsAre(kind(ReportRecord{}), kind(DrawStep{}), kind(AfterStep{})))
+      << "the vehicles that it waits for are determined after the command";
+  EXPECT_THAT(kinds[4], IsEmpty()) << "policies may look ahead then";
 }
 
 TEST_F(HlcMachineStep, GoesOnAsSoonAsEverybodyHasAnswered) {

@@ -102,6 +102,22 @@ TEST_F(LogicalLabControl, AwaitsAsManyEventsAsAreMissingForTheNextTick) {
       << "progress; then a process with a pending reply is dead";
 }
 
+TEST_F(LogicalLabControl, LogsOnceThatAVehicleIsStuck) {
+  begin();
+  ReportRecord waiting = report(200);
+  waiting.report.waiting = {.vehicles = {{2}}, .since = {102}};
+  lab_.on(waiting);
+  EXPECT_THAT(of<machine::LogLine>(advance()), IsEmpty());
+  waiting.report.step.value = 201;
+  lab_.on(waiting);
+  EXPECT_THAT(of<machine::LogLine>(advance()),
+              ElementsAre(machine::warning("stuck: vehicle 1, waiting for 2 for 20.0 s, although "
+                                           "its road would be free without the others")));
+  waiting.report.step.value = 202;
+  lab_.on(waiting);
+  EXPECT_THAT(of<machine::LogLine>(advance()), IsEmpty());
+}
+
 TEST_F(LogicalLabControl, WhoOwesAnAnswerForTooLongIsDead) {
   begin();
   wall_ += kAnswerTimeout;

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <utility>
+
 #include "hlc_bridge/messages/node_names.hpp"
 #include "tests/hlc_bridge/lab_control/timer_names.hpp"
 
@@ -20,27 +23,62 @@ LabRunSettings settings(std::vector<std::uint8_t> ids, std::uint64_t steps) {
   return {.vehicle_ids = std::move(ids), .period = kPeriod, .steps = steps};
 }
 
-// Whole runs: tests/simulation/logical_run_test.cpp.
-TEST(LogicalRun, EndsOnePeriodAfterItsStepsAndSaysHowLongTheyTook) {
-  LogicalRun run{settings({1}, 2)};
+/// Until the stop symbol. Vehicle 1 reports in every step what it waits for.
+/// @return wall time then
+Nanoseconds drive(LogicalRun& run,
+                  const std::function<coordination::Waiting(std::uint64_t step)>& waiting) {
   run.trigger_readers(timers_of({1}));
   run.ready({vehicle_name(1), 0});
   run.ready({middleware_name(1), kListOffset});
   Nanoseconds wall = 100;
-  for (Nanoseconds next = 0; next != kStopSymbol; ++wall) {
-    ASSERT_LT(wall, 1000U);
+  for (Nanoseconds next = 0; next != kStopSymbol && wall < 10'000; ++wall) {
     next = run.advance(wall).triggers.at(0);
     if (next % kPeriod == kListOffset) {
+      const std::uint64_t step = step_at(next, kPeriod);
       ReportRecord record;
       record.report = {.vehicle = {1},
-                       .step = {step_at(next, kPeriod)},
-                       .status = coordination::StepStatus::kPlanned};
+                       .step = {step},
+                       .status = coordination::StepStatus::kPlanned,
+                       .waiting = waiting(step)};
       run.report(record);
       run.ready({middleware_name(1), next + kPeriod});
     } else if (next != kStopSymbol) {
       run.ready({vehicle_name(1), next + kVehiclePeriod});
     }
   }
+  return wall;
+}
+
+/// A vehicle that waits for another one from step `first` to step `last`.
+std::function<coordination::Waiting(std::uint64_t)> between(std::uint64_t first,
+                                                            std::uint64_t last) {
+  return [first, last](std::uint64_t step) {
+    if (step < first || step > last) return coordination::Waiting{};
+    return coordination::Waiting{.vehicles = {{2}}, .since = {first}};
+  };
+}
+
+TEST(LogicalRun, FailsIfAVehicleIsStuckAtTheEnd) {
+  LogicalRun run{settings({1}, 120)};
+  drive(run, between(10, 500));
+  EXPECT_EQ(run.result().exit_code, kExitStuck);
+  EXPECT_EQ(run.result().reason, "stuck at the end: vehicle 1, waiting for 2 for 22.0 s");
+}
+
+// The steps are 0 ... 119; the reports of the period after them do not count.
+TEST(LogicalRun, SucceedsIfAVehicleWaitsForLessOrGotOn) {
+  for (const auto& [first, last] : {std::pair{21, 500}, {10, 118}}) {
+    LogicalRun run{settings({1}, 120)};
+    drive(run, between(static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(last)));
+    EXPECT_EQ(run.result().exit_code, kExitGood) << first;
+    EXPECT_EQ(run.result().reason, "") << first;
+  }
+}
+
+// Whole runs: tests/simulation/logical_run_test.cpp.
+TEST(LogicalRun, EndsOnePeriodAfterItsStepsAndSaysHowLongTheyTook) {
+  LogicalRun run{settings({1}, 2)};
+  const Nanoseconds wall = drive(run, between(1, 0));
   EXPECT_EQ(run.result().first_step, 0U);
   EXPECT_EQ(run.result().clock, 3 * kPeriod);
   EXPECT_EQ(run.result().wall, wall - 101);

@@ -31,6 +31,7 @@ result::StepRecord row() {
   report.coupled = {VehicleId{1}, VehicleId{3}};
   report.missing = {VehicleId{3}};
   report.deviation_m = 0.001;
+  report.waiting = {.vehicles = {VehicleId{3}, VehicleId{1}}, .since = StepIndex{7}};
   row.record.planning_ns = 1'500'000;
   row.record.deadline_missed = true;
   row.record.late_ns = 250'000;
@@ -44,7 +45,7 @@ TEST(StepFiles, RowHoldsEveryColumnOnce) {
   EXPECT_EQ(
       text.substr(text.find('\n') + 1),
       "3,2,fallback,conflict,1.5,2.5,-0.5,7,1.5,2.25,-0.25,0.25,40,4,1,1;3,3,0.001,budget,0.125,J2,"
-      "\"B, at most 0.6 m/s\"\n");
+      "\"B, at most 0.6 m/s\",3;1,2\n");
   const auto commas = [](const std::string& line) {
     return std::count(line.begin(), line.end(), ',');
   };
@@ -58,6 +59,12 @@ TEST(StepFiles, PoseThatWasNotRecordedIsEmpty) {
   EXPECT_NE(text.find(",7,,,,0.25,"), std::string::npos) << text;
 }
 
+TEST(StepFiles, WithoutAWaitItsColumnsAreEmpty) {
+  std::vector<result::StepRecord> rows{row()};
+  rows[0].record.report.waiting = {};
+  EXPECT_TRUE(steps_csv(rows).ends_with("0.6 m/s\",,\n"));
+}
+
 TEST(StepFiles, NothingOfTheClockIsInTheSteps) {
   std::vector<result::StepRecord> rows{row()};
   const std::string before = steps_csv(rows);
@@ -65,6 +72,7 @@ TEST(StepFiles, NothingOfTheClockIsInTheSteps) {
   rows[0].record.deadline_missed = false;
   rows[0].record.late_ns = 98;
   rows[0].record.report.step = StepIndex{100};  // k depends on when a run in real time began
+  rows[0].record.report.waiting.since = StepIndex{99};
   EXPECT_EQ(steps_csv(rows), before);
 }
 

@@ -40,18 +40,18 @@ result::RunSummary some_summary() {
 
 TEST(SummaryFile, HasTheAgreedKeysInOrder) {
   const auto json = nlohmann::ordered_json::parse(summary_json(some_summary()));
-  EXPECT_THAT(
-      keys(json),
-      ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps", "step_s",
-                  "steps", "vehicles", "generated_vertices_sum_max", "min_footprint_distance_m",
-                  "collisions", "wall_s", "realtime_factor", "trace_sha256", "revision", "host",
-                  "engine", "expanded_vertices_sum_max", "policy"));
+  EXPECT_THAT(keys(json),
+              ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps",
+                          "step_s", "steps", "vehicles", "generated_vertices_sum_max",
+                          "min_footprint_distance_m", "collisions", "wall_s", "realtime_factor",
+                          "trace_sha256", "revision", "host", "engine", "expanded_vertices_sum_max",
+                          "policy", "longest_wait_s", "stuck_vehicles"));
   const auto& vehicle = json["vehicles"][0];
-  EXPECT_THAT(keys(vehicle),
-              ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
-                          "generated_vertices", "expanded_vertices", "planning_time_ms",
-                          "fallback_steps", "deadline_misses", "budget_share",
-                          "plans_exceeding_step", "undrivable_steps", "driven_error_mm"));
+  EXPECT_THAT(keys(vehicle), ElementsAre("id", "name", "lap_s", "reference_error_mm",
+                                         "tracking_error_mm", "generated_vertices",
+                                         "expanded_vertices", "planning_time_ms", "fallback_steps",
+                                         "deadline_misses", "budget_share", "plans_exceeding_step",
+                                         "undrivable_steps", "driven_error_mm", "longest_wait"));
   EXPECT_THAT(keys(vehicle["reference_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["driven_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["tracking_error_mm"]), ElementsAre("mean", "max"));
@@ -70,6 +70,23 @@ TEST(SummaryFile, UnitsAreThoseOfTheKeys) {
   EXPECT_EQ(vehicle["generated_vertices"]["max"].get<double>(), 40.0);
   EXPECT_EQ(vehicle["lap_s"].get<double>(), 15.5);
   EXPECT_EQ(vehicle["fallback_steps"].get<int>(), 3);
+}
+
+TEST(SummaryFile, NamesWhoWaitedForWhomAndWhoIsStuck) {
+  result::RunSummary summary = some_summary();
+  summary.vehicles.push_back(summary.vehicles.front());
+  summary.vehicles.back().id = VehicleId{5};
+  summary.vehicles.back().wait = {.duration_s = 22.4, .since_step = 12, .vehicles = {{4}, {6}}};
+  summary.vehicles.back().is_stuck = true;
+  const auto json = nlohmann::ordered_json::parse(summary_json(summary));
+  EXPECT_TRUE(json["vehicles"][0]["longest_wait"].is_null());
+  EXPECT_EQ(json["vehicles"][1]["longest_wait"].dump(),
+            R"({"duration_s":22.4,"since_step":12,"waits_for":[4,6]})");
+  EXPECT_EQ(json["longest_wait_s"].get<double>(), 22.4);
+  EXPECT_EQ(json["stuck_vehicles"].dump(), "[5]");
+  const auto without = nlohmann::ordered_json::parse(summary_json(some_summary()));
+  EXPECT_EQ(without["longest_wait_s"].get<double>(), 0.0);
+  EXPECT_EQ(without["stuck_vehicles"].dump(), "[]");
 }
 
 TEST(SummaryFile, WhatIsUnknownIsNull) {

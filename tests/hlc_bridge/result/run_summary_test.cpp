@@ -14,6 +14,7 @@ namespace hlc::result::run_summary_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kPi = std::numbers::pi;
 constexpr Nanoseconds kPeriod = 200'000'000;
@@ -270,6 +271,51 @@ TEST_F(RunSummaryTest, BudgetShareIsThatOfThePlansFound) {
   EXPECT_THAT(
       summary_table(summary()),
       HasSubstr("plans cut off by the search's budget         up to 30.0 % of a vehicle's\n"));
+}
+
+/// Steps 20 ... 30 of the run, in which vehicle 1 waits for another one, then shorter again.
+TEST_F(RunSummaryTest, TheLongestWaitIsToldWithWhomItWasFor) {
+  EXPECT_FALSE(summary().vehicles[0].wait);
+  EXPECT_EQ(summary_table(summary()).find("wait"), std::string::npos);
+  for (std::uint64_t step = 20; step <= 30; ++step) {
+    report(1, step).report.waiting = {.vehicles = {{2}}, .since = {5 + 20}};
+  }
+  report(1, 30).report.waiting.vehicles = {{2}, {3}};
+  for (std::uint64_t step = 40; step <= 45; ++step) {
+    report(1, step).report.waiting = {.vehicles = {{4}}, .since = {5 + 40}};
+  }
+  const RunSummary result = summary();
+  ASSERT_TRUE(result.vehicles[0].wait);
+  EXPECT_DOUBLE_EQ(result.vehicles[0].wait->duration_s, 2.2);
+  EXPECT_EQ(result.vehicles[0].wait->since_step, 20U);
+  EXPECT_EQ(result.vehicles[0].wait->vehicles, (std::vector<VehicleId>{{2}, {3}}));
+  EXPECT_FALSE(result.vehicles[1].wait);
+  EXPECT_DOUBLE_EQ(longest_wait_s(result), 2.2);
+  EXPECT_TRUE(stuck_vehicles(result).empty());
+  const std::string table = summary_table(result);
+  EXPECT_THAT(
+      table,
+      HasSubstr("longest wait for others                      2.2 s, vehicle 1 for 2 3, from 4.0 s "
+                "on\n"));
+  EXPECT_THAT(table, Not(HasSubstr("stuck at the end")));
+  for (std::uint8_t id = 10; id < 25; ++id) report(1, 30).report.waiting.vehicles.push_back({id});
+  EXPECT_THAT(summary_table(summary()), HasSubstr("for 2 3 10 11 12 13 14 15 ..., from 4.0 s on"));
+}
+
+TEST_F(RunSummaryTest, AVehicleIsStuckByItsLastStepAlone) {
+  for (std::uint64_t step = 50; step < 60; ++step) {
+    report(2, step).report.waiting = {.vehicles = {{1}}, .since = {5}};
+  }
+  EXPECT_DOUBLE_EQ(longest_wait_s(summary()), 12.0);
+  EXPECT_TRUE(stuck_vehicles(summary()).empty());
+  description_.step_s = 0.4;
+  EXPECT_DOUBLE_EQ(longest_wait_s(summary()), 24.0);
+  EXPECT_EQ(stuck_vehicles(summary()), std::vector<VehicleId>{{2}});
+  EXPECT_THAT(summary_table(summary()),
+              HasSubstr("stuck at the end: vehicles                   2\n"));
+  report(2, 59).report.waiting = {};
+  EXPECT_DOUBLE_EQ(longest_wait_s(summary()), 23.6);
+  EXPECT_TRUE(stuck_vehicles(summary()).empty()) << "it got on";
 }
 
 TEST_F(RunSummaryTest, WithoutRouteThereIsNeitherLapNorReferenceError) {

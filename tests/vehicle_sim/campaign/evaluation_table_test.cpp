@@ -50,6 +50,16 @@ TEST(EvaluationTable, FailedRunsAreCountedAndLeftOut) {
   EXPECT_THAT(table, HasSubstr("\nFailed: subgraph B, start 7: a process died\n"));
 }
 
+TEST(EvaluationTable, RunsWithAStuckCarCountAndAreReported) {
+  RunFigures stuck = run("B", 16.0, 24.0);
+  stuck.longest_wait_s = 25.0;
+  stuck.stuck_vehicles = 2;
+  const std::string table = evaluation_markdown({run("B", 15.0, 20.0), stuck}, {});
+  EXPECT_THAT(table, HasSubstr("| Longest wait for other cars [s] | 12.5 [0.0 … 25.0] | |"));
+  EXPECT_THAT(table, HasSubstr("| Runs with a car stuck at the end [%] | 50 [0 … 100] | |"));
+  EXPECT_THAT(table, HasSubstr("| Starts, good / failed | 2 / 0 |"));
+}
+
 TEST(EvaluationTable, SaysWhereTheWallTimeWent) {
   RunFigures one = run("B", 15.0, 20.0);
   one.wall_s = 0.2;

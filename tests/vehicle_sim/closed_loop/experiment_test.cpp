@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/result/run_description.hpp"
 #include "hlc_bridge/result/run_summary.hpp"
 #include "tests/support/folders.hpp"
@@ -47,6 +48,40 @@ TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
   EXPECT_EQ(summary_of(scenario, {.steps = 30, .noise_seed = 5}).trace_sha256, trace);
   EXPECT_NE(summary_of(scenario, {.steps = 30, .noise_seed = 6}).trace_sha256, trace);
   EXPECT_NE(summary_of(scenario, {.steps = 30}).trace_sha256, trace);
+}
+
+// Six cars on their way across a circle: 4, 5 and 6 get through, 1, 2 and 3 stand in each other's
+// way forever.
+TEST(Experiment, SixCarsOnACircleWaitForEachOtherAndSayForWhom) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/circle.yaml", .cars = 6});
+  const Experiment experiment = drive_experiment(scenario, {.steps = 115});
+  EXPECT_EQ(experiment.facts.exit_code, kExitStuck);
+  EXPECT_EQ(experiment.facts.reason,
+            "stuck at the end: vehicle 1, waiting for 3 for 20.8 s; vehicle 2, waiting for 1, 3 "
+            "for 21.0 s; vehicle 3, waiting for 1, 2 for 21.0 s");
+  const std::vector<result::StepRecord> rows =
+      result::step_records(experiment.reports, experiment.drives, experiment.facts);
+  const std::map<VehicleId, std::vector<VehicleId>> expected{
+      {{1}, {{3}}}, {{2}, {{1}, {3}}}, {{3}, {{1}, {2}}}, {{4}, {}}, {{5}, {}}, {{6}, {}}};
+  for (const result::StepRecord& row : rows) {
+    const coordination::Report& report = row.record.report;
+    if (row.step < 20) continue;
+    EXPECT_EQ(report.waiting.vehicles, expected.at(report.vehicle))
+        << unsigned{report.vehicle.value} << " in step " << row.step;
+    EXPECT_EQ(report.status, coordination::StepStatus::kPlanned);
+  }
+  const result::RunSummary summary = result::summarize(result::describe(scenario, std::nullopt),
+                                                       experiment.facts, rows, experiment.drives);
+  EXPECT_EQ(result::stuck_vehicles(summary), (std::vector<VehicleId>{{1}, {2}, {3}}));
+  EXPECT_DOUBLE_EQ(result::longest_wait_s(summary), 21.0);
+
+  const campaign::CampaignResult result = campaign::result_of(
+      campaign::DrivenRun{.scenario = scenario, .experiment = experiment}, std::nullopt);
+  EXPECT_EQ(result.fault, "") << "the run counts";
+  const campaign::RunFigures figures = campaign::with_figures({}, result);
+  EXPECT_EQ(figures.stuck_vehicles, 3U);
+  EXPECT_DOUBLE_EQ(figures.longest_wait_s, 21.0);
 }
 
 TEST(Experiment, ALateControllerFallsBackAndSaysNothingMore) {

@@ -1,0 +1,108 @@
+// The other vehicles as a controller sees them in a step: obstacles of its plan, and those that its
+// vehicle waits for.
+#include "planner/controller/controller.hpp"
+#include "planner/controller/self_loop.hpp"
+
+namespace hlc::controller {
+
+CoupledVehicle Controller::coupled_vehicle(VehicleId other) const {
+  const auto respected = step_.respected.find(other);
+  return {.traffic = &neighbours_.traffic_of(other),
+          .prediction = respected == step_.respected.end() ? nullptr : &respected->second,
+          .is_predecessor = options_.strategies.plans_before(other, options_.vehicle)};
+}
+
+MissingVehicle Controller::missing_vehicle(VehicleId other) const {
+  return {.measured = step_.observation.measured(other),
+          .stands_for_good = neighbours_.stands_for_good(other, options_.horizon_steps)};
+}
+
+std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m(
+    std::span<const CoupledVehicle> coupled_vehicles,
+    std::span<const MissingVehicle> missing) const {
+  return controller::obstacles_m(coupled_vehicles, options_.strategies.coordination.obstacles,
+                                 missing, neighbours_.rules(), step_.observation.step,
+                                 options_.horizon_steps, subgraph().automaton().step_s);
+}
+
+std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
+  std::vector<CoupledVehicle> coupled_vehicles;
+  for (const VehicleId other : coupled()) coupled_vehicles.push_back(coupled_vehicle(other));
+  std::vector<MissingVehicle> missing;
+  for (const VehicleId other : neighbours_.missing()) missing.push_back(missing_vehicle(other));
+  return obstacles_m(coupled_vehicles, missing);
+}
+
+void Controller::note_opposed(std::span<const coordination::Outcome> outcomes) {
+  for (const VehicleId other : step_.component) {
+    if (other == options_.vehicle) continue;
+    const coordination::Outcome* vote = find_message(outcomes, other, step_.observation.step);
+    if (vote == nullptr || vote->wants_fallback) step_.opposed.push_back(other);
+  }
+}
+
+std::optional<MotionAlone> Controller::motion_alone() {
+  if (!path_s_m()) return std::nullopt;
+  const search::SearchResult result = search_.search(posed_alone());
+  if (result.maneuvers.empty()) return std::nullopt;
+  const automaton::Subgraph& on = subgraph();
+  coordination::Plan plan = in_force_->base().continued(
+      step_.next(), result.maneuvers, self_loop(on.automaton(), result.maneuvers.back()->to),
+      on.shared_automaton());
+  coordination::OccupiedAreas areas = in_force_->areas_of(plan, step_.next());
+  return MotionAlone{.plan = std::move(plan), .areas = std::move(areas)};
+}
+
+/// Also the new plan that was only known when this vehicle committed to its own; without it,
+/// everything that the other one can reach.
+OtherVehicle Controller::as_obstacle(VehicleId coupled) const {
+  const CoupledVehicle other = coupled_vehicle(coupled);
+  OtherVehicle result{.vehicle = coupled,
+                      .areas_m = obstacles_m({&other, 1}, {}),
+                      .prevents_all = holds(other.traffic->silent, options_.vehicle) ||
+                                      holds(step_.opposed, coupled)};
+  const auto awaited = step_.awaited.find(coupled);
+  const bool is_unknown = holds(step_.not_received, coupled);
+  for (std::size_t j = 0; j < result.areas_m.size(); ++j) {
+    if (awaited != step_.awaited.end()) {
+      result.areas_m[j].push_back(awaited->second.during({step_.next().value + j}));
+    } else if (is_unknown) {
+      result.areas_m[j].push_back(other.traffic->reachable_area_m);
+    }
+  }
+  return result;
+}
+
+std::vector<OtherVehicle> Controller::other_vehicles() const {
+  std::vector<OtherVehicle> others;
+  for (const VehicleId other : coupled()) others.push_back(as_obstacle(other));
+  for (const VehicleId other : neighbours_.missing()) {
+    const MissingVehicle missing = missing_vehicle(other);
+    const bool is_unseen = missing.measured == nullptr;
+    others.push_back({.vehicle = other,
+                      .areas_m = is_unseen ? std::vector<std::vector<ConvexPolygon>>{}
+                                           : obstacles_m({}, {&missing, 1}),
+                      .prevents_all = is_unseen});
+  }
+  return others;
+}
+
+void Controller::note_waiting(coordination::Report& report) {
+  if (report.reason != coordination::FallbackReason::kLate) {
+    std::vector<VehicleId> vehicles;
+    if (has_plan()) {
+      vehicles = waits_for({.report = report,
+                            .in_force = plan_in_force(),
+                            .horizon_steps = options_.horizon_steps,
+                            .is_disturbed = step_.is_disturbed,
+                            .alone = [this] { return motion_alone(); },
+                            .others = [this] { return other_vehicles(); }});
+    }
+    if (vehicles.empty()) waiting_.since = {};
+    if (waiting_.vehicles.empty() && !vehicles.empty()) waiting_.since = report.step;
+    waiting_.vehicles = std::move(vehicles);
+  }
+  report.waiting = waiting_;
+}
+
+}  // namespace hlc::controller

@@ -1,0 +1,41 @@
+#include "planner/coordination/waiting.hpp"
+
+#include <fmt/format.h>
+
+#include "planner/coordination/report.hpp"
+
+namespace hlc::coordination {
+namespace {
+
+/// Of the product of a number of steps and their duration.
+constexpr double kRounding_s = 1e-6;
+
+}  // namespace
+
+double wait_s(const Report& report, double step_s) {
+  if (report.waiting.vehicles.empty()) return 0.0;
+  return step_s * static_cast<double>(report.step.value + 1 - report.waiting.since.value);
+}
+
+bool is_stuck(const Report& report, double step_s) {
+  return wait_s(report, step_s) >= kStuckAfter_s - kRounding_s;
+}
+
+std::string waiting_text(const Report& report, double step_s) {
+  std::string vehicles;
+  for (const VehicleId id : report.waiting.vehicles) {
+    vehicles += fmt::format("{}{}", vehicles.empty() ? "" : ", ", id.value);
+  }
+  return fmt::format("vehicle {}, waiting for {} for {:.1f} s", report.vehicle.value, vehicles,
+                     wait_s(report, step_s));
+}
+
+std::optional<std::string> StuckNotice::note(const Report& report, double step_s) {
+  const bool was_stuck = is_stuck_;
+  is_stuck_ = is_stuck(report, step_s);
+  if (!is_stuck_ || was_stuck) return std::nullopt;
+  return "stuck: " + waiting_text(report, step_s) +
+         ", although its road would be free without the others";
+}
+
+}  // namespace hlc::coordination
