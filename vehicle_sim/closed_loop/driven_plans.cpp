@@ -16,8 +16,8 @@ constexpr Nanoseconds kCopyPause = 10 * kNanosecondsPerMillisecond;
 }  // namespace
 
 void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at) {
+  if (command.points.empty()) return;  // it changes nothing (command_of)
   Car& car = cars_[{command.vehicle_id}];
-  car.is_commanded_to_stand = command.points.empty();
   const Nanoseconds usable_until = command.valid_after_stamp + kCommandLifetime;
   if (!car.sent.empty() && car.sent.back().create == command.create_stamp) {  // the copy
     car.sent.back().usable_until = usable_until;
@@ -73,7 +73,7 @@ void DrivenPlans::reported(const coordination::Report& report, const coordinatio
     car.agreed = kept_plan(car, report, *in_force);
   }
   if (report.reason == coordination::FallbackReason::kDeviation ||
-      report.status == coordination::StepStatus::kStandby) {
+      (report.status == coordination::StepStatus::kStandby && in_force != nullptr)) {
     car.is_mistaken = false;
   }
   note_observation(car, report);
@@ -136,7 +136,7 @@ DrivenPlans::AgreedPlan DrivenPlans::plan_of(const Car& car, Nanoseconds create)
 
 bool DrivenPlans::has_dropped_plan(const Car& car, Nanoseconds tick) const {
   const AgreedPlan newest = plan_of(car, car.received.newest());
-  if (car.follows != 0 || car.is_commanded_to_stand || !newest || !newest->areas) return false;
+  if (car.follows != 0 || !newest || !newest->areas) return false;
   const bool has_run_out =
       tick / period_ >= newest->areas->first.value + newest->areas->areas_m.size();
   return !has_run_out && tick >= car.received.usable_until();

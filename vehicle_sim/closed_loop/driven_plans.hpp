@@ -107,7 +107,6 @@ class DrivenPlans {
     StepIndex missed_since;  ///< step of the first plan that the vehicle has not received
     bool is_mistaken{};
     std::deque<Sent> sent;  ///< the newest last
-    bool is_commanded_to_stand{};
     ReceivedCommands received;
     Nanoseconds controller_stopped{};  ///< for the first time after what it sent last
     Nanoseconds follows{};
