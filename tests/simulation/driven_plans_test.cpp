@@ -117,6 +117,47 @@ TEST_F(Driven, AVehicleThatChangesOverLateAndIsThenSeenOffItsPlanIsOutOfReach) {
   }
 }
 
+/// Of steps 11 and 12 only the later command arrives, after the plan of step 11 has begun.
+TEST_F(Driven, AVehicleThatChangesOverLateToALaterPlanIsOutOfReachUntilTheNextStep) {
+  for (const bool is_late : {false, true}) {
+    SCOPED_TRACE(is_late);
+    driven_ = DrivenPlans{8, kDrivenPeriod};
+    agree(kFirst, 10, 0.0);
+    receive(kFirst, 10);
+    drive(kFirst, 10, 10);
+    agree(kFirst, 11, 1.0);
+    if (!is_late) receive(kFirst, 11);
+    drive(kFirst, 11, is_late ? 10 : 11);
+    agree(kFirst, 12, 2.0);
+    receive(kFirst, 12);
+    drive(kFirst, 12, 12);
+    drive(kFirst, 12, 12);
+    EXPECT_EQ(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod + kVehiclePeriod), is_late);
+  }
+}
+
+TEST_F(Driven, AVehicleThatHasChangedOverLateIsOutOfReachWhileTheSecondListIsOverdue) {
+  agree(kFirst, 10, 0.0);
+  receive(kFirst, 10);
+  drive(kFirst, 10, 10);
+  agree(kFirst, 11, 1.0);
+  drive(kFirst, 11, 10);
+  receive(kFirst, 11);
+  drive(kFirst, 12, 11);
+  publish(kFirst, 13);
+  driven_.reported({.vehicle = kFirst, .step = {13}}, nullptr);
+  const auto is_out_of_reach_in = [this](std::uint64_t step) {
+    drive(kFirst, step, 11);
+    drive(kFirst, step, 11);
+    return driven_.is_out_of_reach(kFirst, step * kDrivenPeriod + kVehiclePeriod);
+  };
+  EXPECT_FALSE(is_out_of_reach_in(13));
+  EXPECT_FALSE(is_out_of_reach_in(14));
+  EXPECT_TRUE(is_out_of_reach_in(15));
+  publish(kFirst, 16);
+  EXPECT_FALSE(is_out_of_reach_in(16));
+}
+
 TEST_F(Driven, AVehicleThatChangesOverInTimeIsInReachEvenIfItIsSeenOffItsPlan) {
   for (std::uint64_t step = 10; step < 12; ++step) {
     agree(kFirst, step, 0.1 * static_cast<double>(step));

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kKeptCommands = 16;  // more than a command's lifetime, copy included
 /// More than the pause between a command and its copy.
 constexpr Nanoseconds kCopyPause = 10 * kNanosecondsPerMillisecond;
+/// By then a controller has seen what its vehicle does after a late change.
+constexpr std::size_t kStepsToShow = 2;
 
 }  // namespace
 
@@ -36,6 +38,7 @@ bool DrivenPlans::has_newest_plan(const Car& car) {
 void DrivenPlans::published(const coordination::Traffic& traffic) {
   Car& car = cars_[traffic.vehicle];
   car.announced = traffic.running;
+  if (traffic.step.value * period_ > car.late_change.at) ++car.late_change.steps_begun;
   if (has_newest_plan(car)) return;
   car.is_mistaken = true;
   if (traffic.step.value >= car.missed_since.value + 2) {
@@ -85,12 +88,19 @@ void DrivenPlans::reported(const coordination::Report& report, const coordinatio
 /// What the controller sees after the vehicle has changed over late.
 void DrivenPlans::note_observation(Car& car, const coordination::Report& report) const {
   const Nanoseconds at = report.step.value * period_;
-  if (at <= car.late_change.at) return;
-  if (report.reason == coordination::FallbackReason::kDeviation && car.late_change.at != 0 &&
-      (car.late_change.is_unseen_since || at <= car.late_change.at + 2 * period_)) {
+  if (car.late_change.at == 0 || at <= car.late_change.at) return;
+  if (++car.late_change.steps_ended <= kStepsToShow &&
+      report.reason == coordination::FallbackReason::kDeviation) {
     car.out_of_reach_until = at + kAfterwards;
   }
-  car.late_change.is_unseen_since = false;
+}
+
+bool DrivenPlans::is_unseen_after_change(const Car& car, Nanoseconds tick) const {
+  const LateChange& change = car.late_change;
+  if (change.at == 0 || tick >= change.at + kAfterwards) return false;
+  const bool is_overdue =
+      change.steps_begun < kStepsToShow && tick > change.at + kStepsToShow * period_;
+  return change.steps_ended == 0 || is_overdue;
 }
 
 /// The plan in force where nothing new has been agreed: the same as before, an older one that the
@@ -183,7 +193,7 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   if (has_newest_plan(car)) car.is_mistaken = false;
   const bool is_lost = car.is_mistaken && tick / period_ >= car.missed_since.value + 2;
   if (is_lost) car.out_of_reach_until = tick + kAfterwards;
-  if (car.late_change.is_unseen_since && tick < car.late_change.at + kAfterwards) {
+  if (is_unseen_after_change(car, tick)) {
     car.out_of_reach_until = std::max(car.out_of_reach_until, tick + kVehiclePeriod);
   }
   check_drop(vehicle, car, tick, violations);
@@ -191,18 +201,23 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
   if (!plan || plan == car.driven) return;
-  if (is_change_late(car, plan, tick)) car.late_change = {.at = tick, .is_unseen_since = true};
+  if (is_change_late(car, plan, tick)) car.late_change = {.at = tick};
   car.driven = plan;
   car.stands.reset();
   check_pairs(vehicle, tick, violations);
 }
 
-/// The plan was commanded before it began; the vehicle, which drove another one, has not received
-/// it until after that.
+/// The plan, or one between the driven one and it, was commanded before it began; the vehicle has
+/// not received it until after that.
 bool DrivenPlans::is_change_late(const Car& car, const AgreedPlan& plan, Nanoseconds tick) {
-  if (!car.driven || plan->is_anchored || tick < plan->begin + kVehiclePeriod) return false;
-  return std::ranges::any_of(
-      car.sent, [&](const Sent& sent) { return sent.plan == plan && sent.at < plan->begin; });
+  if (!car.driven || plan->is_anchored) return false;
+  return std::ranges::any_of(car.sent, [&](const Sent& sent) {
+    if (!sent.plan || sent.plan->is_anchored) return false;
+    const bool is_between =
+        car.driven->number < sent.plan->number && sent.plan->number < plan->number;
+    return (sent.plan == plan || is_between) && sent.at < sent.plan->begin &&
+           tick >= sent.plan->begin + kVehiclePeriod;
+  });
 }
 
 void DrivenPlans::check_order(VehicleId vehicle, Car& car, Nanoseconds tick,

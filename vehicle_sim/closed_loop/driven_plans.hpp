@@ -36,9 +36,12 @@ namespace hlc::closed_loop {
 ///     received;
 ///   * while it has dropped its command before the end of the plan, since what was sent has not
 ///     arrived, or the controller was stopped between a command and its copy;
-///   * when it has received a plan that was sent in time only after that had begun, and has changed
-///     over to it late, that is on a way that nobody could know: until its controller's next step,
-///     and longer if it is then seen off the plan (kDeviation in the next two steps);
+///   * when it has received a plan that was sent in time only after that had begun (with its own
+///     command, or with that of a later plan, which continues it), and has changed over to it late,
+///     that is on a way that nobody could know: until its controller's next step, and longer if it
+///     is then seen off the plan (kDeviation in the next two steps). The first of these steps may
+///     not show it yet, since states are older than their list: if the second one is overdue, since
+///     its list is lost, the vehicle is out of reach until it begins;
 ///   * when its process dies;
 /// and for kAfterwards longer, while others may drive what they have agreed to meanwhile. Only what
 /// the vehicle has not received counts: commands that it has it must follow.
@@ -95,8 +98,9 @@ class DrivenPlans {
     AgreedPlan plan;
   };
   struct LateChange {
-    Nanoseconds at{};        ///< tick of the last one; 0: none
-    bool is_unseen_since{};  ///< the controller has made no step since then
+    Nanoseconds at{};           ///< tick of the last one; 0: none
+    std::size_t steps_begun{};  ///< by the controller since then
+    std::size_t steps_ended{};
   };
   struct Car {
     std::optional<coordination::Prediction> predicted;
@@ -123,6 +127,7 @@ class DrivenPlans {
   [[nodiscard]] static bool is_change_late(const Car& car, const AgreedPlan& plan,
                                            Nanoseconds tick);
   void note_observation(Car& car, const coordination::Report& report) const;
+  [[nodiscard]] bool is_unseen_after_change(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] static bool has_all_that_was_sent(const Car& car);
   void check_drop(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);

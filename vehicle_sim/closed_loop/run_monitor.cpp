@@ -100,7 +100,10 @@ void RunMonitor::on_report(const ReportRecord& record, const coordination::Plan*
   const coordination::Report& report = record.report;
   ++result_.car_steps;
   if (report.status == coordination::StepStatus::kPlanned) ++result_.planned;
-  if (driven_.is_out_of_reach(report.vehicle, report.step.value * period_)) ++result_.unreachable;
+  if (driven_.is_out_of_reach(report.vehicle, report.step.value * period_) ||
+      announced_.is_exempt(report.vehicle)) {
+    ++result_.unreachable;
+  }
   planning_.report(record, lab_->now());
   plans_.reported(report, in_force, lab_->now(), result_.violations);
   driven_.reported(report, in_force);
