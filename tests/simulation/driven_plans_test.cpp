@@ -31,9 +31,10 @@ class Driven : public testing::Test {
         {.vehicle = vehicle, .step = {step}, .status = coordination::StepStatus::kPlanned}, &plan);
   }
   /// The plan in force: to stand.
-  void publish(VehicleId vehicle, std::uint64_t step) {
+  void publish(VehicleId vehicle, std::uint64_t step, bool is_seen = true) {
     driven_.published(
-        {.vehicle = vehicle, .step = {step}, .running = area_at(step, agreed_m_[vehicle])});
+        {.vehicle = vehicle, .step = {step}, .running = area_at(step, agreed_m_[vehicle])},
+        is_seen);
   }
   static TrajectoryCommand command(VehicleId vehicle, std::uint64_t step) {
     return {.vehicle_id = vehicle.value,
@@ -156,6 +157,39 @@ TEST_F(Driven, AVehicleThatHasChangedOverLateIsOutOfReachWhileTheSecondListIsOve
   EXPECT_TRUE(is_out_of_reach_in(15));
   publish(kFirst, 16);
   EXPECT_FALSE(is_out_of_reach_in(16));
+}
+
+TEST_F(Driven, AControllerThatDoesNotSeeItsVehicleIsNotMistaken) {
+  for (const bool is_seen : {false, true}) {
+    SCOPED_TRACE(is_seen);
+    driven_ = DrivenPlans{8, kDrivenPeriod};
+    agree(kFirst, 10, 0.0);
+    receive(kFirst, 10);
+    drive(kFirst, 10, 10);
+    agree(kFirst, 11, 1.0);
+    for (std::uint64_t step = 12; step < 15; ++step) publish(kFirst, step, is_seen);
+    drive(kFirst, 14, 10);
+    EXPECT_EQ(driven_.is_out_of_reach(kFirst, 14 * kDrivenPeriod), is_seen);
+  }
+}
+
+TEST_F(Driven, ALateChangeByACommandThatWasSentToAnUnseenVehicleIsNoExcuse) {
+  for (const bool is_seen : {false, true}) {
+    SCOPED_TRACE(is_seen);
+    driven_ = DrivenPlans{8, kDrivenPeriod};
+    agree(kFirst, 10, 0.0);
+    receive(kFirst, 10);
+    drive(kFirst, 10, 10);
+    agree(kFirst, 11, 1.0);
+    publish(kFirst, 12, is_seen);
+    driven_.commanded(command(kFirst, 12), 12 * kDrivenPeriod + 1);
+    const coordination::Plan plan({11}, {.x_m = 1.0}, standstill_);
+    driven_.reported({.vehicle = kFirst, .step = {12}}, &plan);
+    receive(kFirst, 12);
+    drive(kFirst, 12, 12);
+    drive(kFirst, 12, 12);
+    EXPECT_EQ(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod + kVehiclePeriod), is_seen);
+  }
 }
 
 TEST_F(Driven, AVehicleThatChangesOverInTimeIsInReachEvenIfItIsSeenOffItsPlan) {

@@ -25,8 +25,11 @@ void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at) {
     car.sent.back().usable_until = usable_until;
     return;
   }
-  car.sent.push_back(
-      {.create = command.create_stamp, .at = at, .usable_until = usable_until, .plan = nullptr});
+  car.sent.push_back({.create = command.create_stamp,
+                      .at = at,
+                      .usable_until = usable_until,
+                      .is_blind = !car.is_seen,
+                      .plan = nullptr});
   if (car.sent.size() > kKeptCommands) car.sent.pop_front();
 }
 
@@ -35,11 +38,12 @@ bool DrivenPlans::has_newest_plan(const Car& car) {
   return car.num_agreed == 0 || (newest && newest->number == car.agreed->number);
 }
 
-void DrivenPlans::published(const coordination::Traffic& traffic) {
+void DrivenPlans::published(const coordination::Traffic& traffic, bool is_seen) {
   Car& car = cars_[traffic.vehicle];
   car.announced = traffic.running;
   if (traffic.step.value * period_ > car.late_change.at) ++car.late_change.steps_begun;
-  if (has_newest_plan(car)) return;
+  car.is_seen = is_seen;
+  if (has_newest_plan(car) || !is_seen) return;
   car.is_mistaken = true;
   if (traffic.step.value >= car.missed_since.value + 2) {
     car.out_of_reach_until = traffic.step.value * period_ + kAfterwards;
@@ -201,7 +205,8 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
   if (!plan || plan == car.driven) return;
-  if (is_change_late(car, plan, tick)) car.late_change = {.at = tick};
+  const auto sent = std::ranges::find(car.sent, follows, &Sent::create);
+  if (!sent->is_blind && is_change_late(car, plan, tick)) car.late_change = {.at = tick};
   car.driven = plan;
   car.stands.reset();
   check_pairs(vehicle, tick, violations);

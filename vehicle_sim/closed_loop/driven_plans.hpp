@@ -30,18 +30,19 @@ namespace hlc::closed_loop {
 ///
 /// **The limits of what controllers can promise** (plan_in_force.hpp). A controller is *mistaken*
 /// about its vehicle if it publishes traffic while the vehicle has not received the plan in force,
-/// which was agreed in a step before, and reports no deviation: the others rely on a plan that is
-/// not driven. A vehicle is *out of reach*
+/// which was agreed in a step before, although it sees the vehicle, and reports no deviation: the
+/// others rely on a plan that is not driven. A vehicle is *out of reach*
 ///   * while its controller is mistaken, from the second step after the first plan that it has not
 ///     received;
 ///   * while it has dropped its command before the end of the plan, since what was sent has not
 ///     arrived, or the controller was stopped between a command and its copy;
 ///   * when it has received a plan that was sent in time only after that had begun (with its own
 ///     command, or with that of a later plan, which continues it), and has changed over to it late,
-///     that is on a way that nobody could know: until its controller's next step, and longer if it
-///     is then seen off the plan (kDeviation in the next two steps). The first of these steps may
-///     not show it yet, since states are older than their list: if the second one is overdue, since
-///     its list is lost, the vehicle is out of reach until it begins;
+///     that is on a way that nobody could know (unless the command was sent although the vehicle
+///     was not seen: rule 5 of plan_in_force.hpp): until its controller's next step, and longer if
+///     it is then seen off the plan (kDeviation in the next two steps). The first of these steps
+///     may not show it yet, since states are older than their list: if the second one is overdue,
+///     since its list is lost, the vehicle is out of reach until it begins;
 ///   * when its process dies;
 /// and for kAfterwards longer, while others may drive what they have agreed to meanwhile. Only what
 /// the vehicle has not received counts: commands that it has it must follow.
@@ -57,7 +58,8 @@ class DrivenPlans {
   void predicted(const coordination::Prediction& prediction) {
     cars_[prediction.vehicle].predicted = prediction;
   }
-  void published(const coordination::Traffic& traffic);
+  /// @param is_seen  the controller sees its vehicle in this step, or cannot tell from its lists
+  void published(const coordination::Traffic& traffic, bool is_seen = true);
   /// @param at  true time
   void commanded(const TrajectoryCommand& command, Nanoseconds at);
   /// What was commanded before in the same step is of the plan in force after it.
@@ -95,6 +97,7 @@ class DrivenPlans {
     Nanoseconds create{};
     Nanoseconds at{};
     Nanoseconds usable_until{};  ///< with its copy, if that has been sent
+    bool is_blind{};             ///< sent to a vehicle that was not seen
     AgreedPlan plan;
   };
   struct LateChange {
@@ -110,6 +113,7 @@ class DrivenPlans {
     std::uint64_t num_agreed{};
     StepIndex missed_since;  ///< step of the first plan that the vehicle has not received
     bool is_mistaken{};
+    bool is_seen{true};     ///< by its controller, in its last step
     std::deque<Sent> sent;  ///< the newest last
     ReceivedCommands received;
     Nanoseconds controller_stopped{};  ///< for the first time after what it sent last

@@ -51,6 +51,7 @@ class Draw {
         scatter(random_.below(2), faults);
         break;
       case FaultStyle::kSilence:
+        if (random_.chance(0.3)) add_mute_controller(faults);
         for (std::size_t i = 1 + random_.below(4); i > 0; --i) add_lost_controllers(faults);
         scatter(random_.below(2), faults);
         break;
@@ -142,6 +143,27 @@ class Draw {
     if (!is_mutual) return;
     std::swap(fault.process, fault.peer);
     faults.push_back(fault);
+  }
+
+  /// It is suspended for so long that it is believed dead, and no other one receives it any more.
+  void add_mute_controller(std::vector<Fault>& faults) {
+    const std::vector<std::uint8_t>& ids = settings_.vehicle_ids;
+    const std::uint8_t id = ids[random_.below(ids.size())];
+    const Nanoseconds span = settings_.last - settings_.first;
+    Fault pause{.kind = FaultKind::kFreeze,
+                .begin = settings_.first + random_.below(span / 2),
+                .process = controller_name(id)};
+    pause.end = std::min(pause.begin + duration(3000 * kMs, 6000 * kMs), settings_.last);
+    if (!is_asked_for(FaultKind::kFreeze) || !is_asked_for(FaultKind::kCut)) return;
+    faults.push_back(pause);
+    for (const std::uint8_t other : ids) {
+      if (other == id) continue;
+      faults.push_back({.kind = FaultKind::kCut,
+                        .begin = pause.begin,
+                        .end = settings_.last,
+                        .process = controller_name(id),
+                        .peer = controller_name(other)});
+    }
   }
 
   [[nodiscard]] bool is_asked_for(FaultKind kind) const {

@@ -42,7 +42,7 @@ class RunMonitor final : public RunObserver {
   void on_driven(std::uint8_t vehicle, Nanoseconds time,
                  const result::DrivenSample& sample) override;
   void on_traffic(const coordination::Traffic& traffic, bool is_seen) override {
-    driven_.published(traffic);
+    driven_.published(traffic, is_seen || lab_->is_logical());
     announced_.published(traffic, is_seen);
     plans_.published(traffic);
   }
@@ -75,7 +75,11 @@ class RunMonitor final : public RunObserver {
   }
 
  private:
+  /// A lease, and the step under way.
+  static constexpr Nanoseconds kLabControlIsMissed = 3 * kNanosecondsPerSecond;
+
   void came_back(std::uint8_t vehicle);
+  void check_lab_control(const coordination::Report& report);
   void add_to_hash(std::uint64_t value);
 
   Nanoseconds period_;
@@ -95,6 +99,7 @@ class RunMonitor final : public RunObserver {
   };
   std::map<std::uint8_t, Last> last_;
   std::set<std::uint8_t> stopped_;
+  std::optional<Nanoseconds> lab_control_died_;
   FaultRunResult result_;
   bool has_violation_{};
 };
