@@ -25,7 +25,7 @@ class Driven : public testing::Test {
     publish(vehicle, step);
     agreed_m_[vehicle] = x_m;
     driven_.predicted({.vehicle = vehicle, .step = {step}, .areas = area_at(step + 1, x_m)});
-    driven_.commanded(command(vehicle, step), step * kDrivenPeriod + 1);
+    driven_.commanded(command(vehicle, step), step * kDrivenPeriod + 1, violations_);
     const coordination::Plan plan({step}, {.x_m = x_m}, standstill_);
     driven_.reported(
         {.vehicle = vehicle, .step = {step}, .status = coordination::StepStatus::kPlanned}, &plan);
@@ -173,23 +173,18 @@ TEST_F(Driven, AControllerThatDoesNotSeeItsVehicleIsNotMistaken) {
   }
 }
 
-TEST_F(Driven, ALateChangeByACommandThatWasSentToAnUnseenVehicleIsNoExcuse) {
-  for (const bool is_seen : {false, true}) {
-    SCOPED_TRACE(is_seen);
-    driven_ = DrivenPlans{8, kDrivenPeriod};
-    agree(kFirst, 10, 0.0);
-    receive(kFirst, 10);
-    drive(kFirst, 10, 10);
-    agree(kFirst, 11, 1.0);
-    publish(kFirst, 12, is_seen);
-    driven_.commanded(command(kFirst, 12), 12 * kDrivenPeriod + 1);
-    const coordination::Plan plan({11}, {.x_m = 1.0}, standstill_);
-    driven_.reported({.vehicle = kFirst, .step = {12}}, &plan);
-    receive(kFirst, 12);
-    drive(kFirst, 12, 12);
-    drive(kFirst, 12, 12);
-    EXPECT_EQ(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod + kVehiclePeriod), is_seen);
-  }
+TEST_F(Driven, AVehicleThatIsNotSeenIsSentNothingUntilItsControllerIsRestarted) {
+  agree(kFirst, 10, 0.0);
+  publish(kFirst, 11, false);
+  driven_.commanded(command(kFirst, 10), 10 * kDrivenPeriod + 2, violations_);
+  EXPECT_TRUE(violations_.empty()) << "a copy";
+  driven_.controller_started(kFirst);
+  driven_.commanded(command(kFirst, 11), 11 * kDrivenPeriod + 1, violations_);
+  EXPECT_TRUE(violations_.empty());
+  publish(kFirst, 12, false);
+  driven_.commanded(command(kFirst, 12), 12 * kDrivenPeriod + 1, violations_);
+  ASSERT_EQ(violations_.size(), 1U);
+  EXPECT_EQ(violations_.front().check, "commands");
 }
 
 TEST_F(Driven, AVehicleThatChangesOverInTimeIsInReachEvenIfItIsSeenOffItsPlan) {

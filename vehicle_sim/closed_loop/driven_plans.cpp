@@ -17,7 +17,8 @@ constexpr std::size_t kStepsToShow = 2;
 
 }  // namespace
 
-void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at) {
+void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at,
+                            Violations& violations) {
   if (command.points.empty()) return;  // it changes nothing (command_of)
   Car& car = cars_[{command.vehicle_id}];
   const Nanoseconds usable_until = command.valid_after_stamp + kCommandLifetime;
@@ -25,11 +26,14 @@ void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at) {
     car.sent.back().usable_until = usable_until;
     return;
   }
-  car.sent.push_back({.create = command.create_stamp,
-                      .at = at,
-                      .usable_until = usable_until,
-                      .is_blind = !car.is_seen,
-                      .plan = nullptr});
+  if (!car.is_seen && off_command_.insert({command.vehicle_id}).second) {
+    violations.push_back({.at = at,
+                          .check = "commands",
+                          .text = "vehicle " + std::to_string(command.vehicle_id) +
+                                  " is sent a command, and its controller does not see it"});
+  }
+  car.sent.push_back(
+      {.create = command.create_stamp, .at = at, .usable_until = usable_until, .plan = nullptr});
   if (car.sent.size() > kKeptCommands) car.sent.pop_front();
 }
 
@@ -205,8 +209,7 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
   if (!plan || plan == car.driven) return;
-  const auto sent = std::ranges::find(car.sent, follows, &Sent::create);
-  if (!sent->is_blind && is_change_late(car, plan, tick)) car.late_change = {.at = tick};
+  if (is_change_late(car, plan, tick)) car.late_change = {.at = tick};
   car.driven = plan;
   car.stands.reset();
   check_pairs(vehicle, tick, violations);

@@ -26,7 +26,8 @@ namespace hlc::closed_loop {
 ///   stands has been agreed by nobody: of that the footprints are checked. Once the plan of a
 ///   vehicle has run out, the vehicle stands where its controller announces.
 /// * **commands**: a vehicle follows the newest command that it has received and that is valid; and
-///   its controller has sent it all that it needs to drive the plan to its end.
+///   its controller has sent it all that it needs to drive the plan to its end, and, in real time,
+///   nothing while it does not see it (rule 5 of plan_in_force.hpp).
 ///
 /// **The limits of what controllers can promise** (plan_in_force.hpp). A controller is *mistaken*
 /// about its vehicle if it publishes traffic while the vehicle has not received the plan in force,
@@ -38,11 +39,10 @@ namespace hlc::closed_loop {
 ///     arrived, or the controller was stopped between a command and its copy;
 ///   * when it has received a plan that was sent in time only after that had begun (with its own
 ///     command, or with that of a later plan, which continues it), and has changed over to it late,
-///     that is on a way that nobody could know (unless the command was sent although the vehicle
-///     was not seen: rule 5 of plan_in_force.hpp): until its controller's next step, and longer if
-///     it is then seen off the plan (kDeviation in the next two steps). The first of these steps
-///     may not show it yet, since states are older than their list: if the second one is overdue,
-///     since its list is lost, the vehicle is out of reach until it begins;
+///     that is on a way that nobody could know: until its controller's next step, and longer if it
+///     is then seen off the plan (kDeviation in the next two steps). The first of these steps may
+///     not show it yet, since states are older than their list: if the second one is overdue, since
+///     its list is lost, the vehicle is out of reach until it begins;
 ///   * when its process dies;
 /// and for kAfterwards longer, while others may drive what they have agreed to meanwhile. Only what
 /// the vehicle has not received counts: commands that it has it must follow.
@@ -61,13 +61,15 @@ class DrivenPlans {
   /// @param is_seen  the controller sees its vehicle in this step, or cannot tell from its lists
   void published(const coordination::Traffic& traffic, bool is_seen = true);
   /// @param at  true time
-  void commanded(const TrajectoryCommand& command, Nanoseconds at);
+  void commanded(const TrajectoryCommand& command, Nanoseconds at, Violations& violations);
   /// What was commanded before in the same step is of the plan in force after it.
   void reported(const coordination::Report& report, const coordination::Plan* in_force);
   void received(const TrajectoryCommand& command);
   /// @param follows  create_stamp of the command that is followed; 0: none
   void driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows, Violations& violations);
   void died(VehicleId vehicle, Nanoseconds at);
+  /// Another controller of the vehicle begins.
+  void controller_started(VehicleId vehicle) { cars_[vehicle].is_seen = true; }
   /// Its controller's process has ended or is suspended. @param at  true time
   void controller_stopped(VehicleId vehicle, Nanoseconds at) {
     Car& car = cars_[vehicle];
@@ -97,7 +99,6 @@ class DrivenPlans {
     Nanoseconds create{};
     Nanoseconds at{};
     Nanoseconds usable_until{};  ///< with its copy, if that has been sent
-    bool is_blind{};             ///< sent to a vehicle that was not seen
     AgreedPlan plan;
   };
   struct LateChange {

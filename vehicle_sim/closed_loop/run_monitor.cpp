@@ -128,7 +128,7 @@ void RunMonitor::check_lab_control(const coordination::Report& report) {
 }
 
 void RunMonitor::on_command(const TrajectoryCommand& command) {
-  driven_.commanded(command, lab_->true_time());
+  driven_.commanded(command, lab_->true_time(), result_.violations);
   add_to_hash(command.create_stamp);
 }
 
@@ -151,6 +151,7 @@ void RunMonitor::changed(const ProcessSlot& slot) {
     reasons_.started(slot.name);
     if (slot.key.role == Role::kVehicle) came_back(slot.key.vehicle);
     if (slot.key.role == Role::kLabControl) lab_control_died_.reset();
+    if (slot.key.role == Role::kController) driven_.controller_started({slot.key.vehicle});
     return trace([&] { return slot.name + " starts"; });
   }
   trace([&] { return slot.name + " ends with code " + std::to_string(*slot.exit_code); });
