@@ -51,9 +51,7 @@ class Draw {
         scatter(random_.below(2), faults);
         break;
       case FaultStyle::kSilence:
-        if (random_.chance(0.3)) add_mute_controller(faults);
-        for (std::size_t i = 1 + random_.below(4); i > 0; --i) add_lost_controllers(faults);
-        scatter(random_.below(2), faults);
+        add_silence(faults);
         break;
     }
     std::ranges::stable_sort(faults, {}, &Fault::begin);
@@ -123,6 +121,32 @@ class Draw {
     const Nanoseconds steps = (1 + random_.below(2)) * 200 * kMs;
     fault.amount = static_cast<std::int64_t>(random_.between(steps - 20 * kMs, steps + 20 * kMs));
     faults.push_back(fault);
+  }
+
+  void add_silence(std::vector<Fault>& faults) {
+    const double kind = random_.share();
+    if (kind < 0.3) add_mute_controller(faults);
+    if (kind >= 0.7) add_lossy_controllers(faults);
+    for (std::size_t i = 1 + random_.below(4); i > 0; --i) add_lost_controllers(faults);
+    scatter(random_.below(2), faults);
+  }
+
+  /// Every controller loses messages of every other one, all the time, so that two of them often
+  /// miss each other's plans of the same step.
+  void add_lossy_controllers(std::vector<Fault>& faults) {
+    if (!is_asked_for(FaultKind::kWithhold)) return;
+    Fault fault{.kind = FaultKind::kWithhold,
+                .begin = settings_.first,
+                .end = settings_.last,
+                .share = 0.2 + 0.4 * random_.share()};
+    for (const std::uint8_t from : settings_.vehicle_ids) {
+      for (const std::uint8_t to : settings_.vehicle_ids) {
+        if (from == to) continue;
+        fault.process = controller_name(from);
+        fault.peer = controller_name(to);
+        faults.push_back(fault);
+      }
+    }
   }
 
   /// Of two controllers: of both, with losses all the time, or of one, for long.
