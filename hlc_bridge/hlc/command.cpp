@@ -18,7 +18,10 @@ TrajectoryCommand command_of(VehicleId vehicle, const coordination::Plan* plan, 
                              const vehicle::VehicleParameters& parameters, double interval_s) {
   TrajectoryCommand command{
       .vehicle_id = vehicle.value, .create_stamp = t_now, .valid_after_stamp = t_now};
-  if (plan == nullptr) return command;
+  if (plan == nullptr) {
+    command.valid_after_stamp += kCopyDelay + kCommandLifetime;
+    return command;
+  }
   const auto step_start = static_cast<std::int64_t>(step.value * period);
   const double step_s = 1e-9 * static_cast<double>(period);
   const double offset_s = 1e-9 * static_cast<double>(static_cast<std::int64_t>(t_now) - step_start);

@@ -36,6 +36,7 @@ void HlcCore::note(const VehicleStateList& list, const controller::Observation& 
     if (is_usable(state, list.t_now)) settled_[{state.vehicle_id}].add(state);
   }
   const coordination::MeasuredVehicle* vehicle = own(observation);
+  is_seen_from_begin_ |= vehicle != nullptr && list.t_now < SettledStates::kSpan;
   stood_lists_ =
       vehicle != nullptr && coordination::is_seen_standing(*vehicle, {}) ? stood_lists_ + 1 : 0;
 }
@@ -57,19 +58,15 @@ const coordination::MeasuredVehicle* HlcCore::own(
   return found == observation.states.end() ? nullptr : &*found;
 }
 
-bool HlcCore::may_stand_by(const controller::Observation& observation) const {
-  const coordination::MeasuredVehicle* vehicle = own(observation);
-  if (controller_->has_plan())
-    return vehicle == nullptr || coordination::is_seen_standing(*vehicle, {});
-  return stood_lists_ >= controller_->options().horizon_steps &&
-         has_settled(controller_->options().vehicle);
-}
-
-bool HlcCore::drives_former_plan(const controller::Observation& observation) const {
-  constexpr double kDriving_mps = 0.2;
-  const coordination::MeasuredVehicle* vehicle = own(observation);
-  return !controller_->has_plan() && vehicle != nullptr &&
-         std::abs(vehicle->speed_mps) > kDriving_mps;
+bool HlcCore::may_stand_by(const controller::Observation& observation, StartRule rule) const {
+  const bool is_together = rule == StartRule::kTogether;
+  if (controller_->has_plan()) {
+    const coordination::MeasuredVehicle* vehicle = own(observation);
+    return is_together || vehicle == nullptr || coordination::is_seen_standing(*vehicle, {});
+  }
+  return (is_together && is_seen_from_begin_) ||
+         (stood_lists_ >= controller_->options().horizon_steps &&
+          has_settled(controller_->options().vehicle));
 }
 
 bool HlcCore::begins(const VehicleStateList& list, const controller::Observation& observation,
@@ -78,7 +75,7 @@ bool HlcCore::begins(const VehicleStateList& list, const controller::Observation
   has_begun_ = rule == StartRule::kTogether
                    ? is_complete(observation) && have_all_settled(observation)
                    : trigger && list.t_now >= *trigger && own(observation) != nullptr &&
-                         may_stand_by(observation);
+                         may_stand_by(observation, rule);
   return has_begun_;
 }
 

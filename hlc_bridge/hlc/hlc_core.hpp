@@ -13,7 +13,7 @@
 
 namespace hlc::high_level_controller {
 
-/// A command and, unless it is a command to stand, its copy for later (copy_for_later).
+/// A command and, if it has points, its copy for later (copy_for_later).
 struct AnswerToList {
   TrajectoryCommand command;
   std::optional<TrajectoryCommand> copy;
@@ -49,17 +49,20 @@ class HlcCore {
   /// until the experiment begins.
   void note(const VehicleStateList& list, const controller::Observation& observation);
 
-  /// Under kAtTrigger, before the experiment has begun here: whether the vehicle may be commanded
-  /// to stand where it is. A moving vehicle still drives the command of a former controller, or is
-  /// moved by hand, and an unseen one may do so: it gets no plan and no command. The same holds for
-  /// a vehicle that has not stood in the lists of a whole horizon, since the plan of its former
+  /// Before the experiment has begun here: whether the vehicle may be commanded to stand where it
+  /// is. A moving vehicle still drives the command of a former controller, or is moved by hand, and
+  /// an unseen one may do so: it gets no plan, and no command that has an effect. The same holds
+  /// for a vehicle that has not stood in the lists of a whole horizon, since the plan of its former
   /// controller may be to wait and then drive, and for one whose states cannot be trusted yet
-  /// (SettledStates). Once commanded to stand, it is commanded so as long as it is not seen moving.
-  [[nodiscard]] bool may_stand_by(const controller::Observation& observation) const;
-
-  /// Under kTogether: there is no plan yet, and the vehicle drives what a former controller has
-  /// left it. (No noise measures a standing vehicle that fast.)
-  [[nodiscard]] bool drives_former_plan(const controller::Observation& observation) const;
+  /// (SettledStates). Once commanded to stand, it is commanded so
+  ///   * under kAtTrigger as long as it is not seen moving;
+  ///   * under kTogether until the experiment begins.
+  ///
+  /// Under kTogether a vehicle that was seen in a list of the time's first SettledStates::kSpan may
+  /// be commanded to stand at once: until then no vehicle can have settled, so there is no former
+  /// plan. (The list must show the vehicle: a middleware that was restarted begins with the lists
+  /// of the past, in which no states are valid yet.)
+  [[nodiscard]] bool may_stand_by(const controller::Observation& observation, StartRule rule) const;
 
   /// True if the experiment has begun, or begins with this list: a plan is in force, the vehicle
   /// fits its route (Controller::fits_route), and
@@ -72,8 +75,8 @@ class HlcCore {
                             const std::optional<Nanoseconds>& trigger);
   [[nodiscard]] bool has_begun() const { return has_begun_; }
 
-  /// The plan in force as commands, in answer to the list; without a plan a command to stand. The
-  /// commands are checked (own_command_check.hpp). On a fault, the last good command is
+  /// The plan in force as commands, in answer to the list; without a plan an answer that leaves the
+  /// vehicle alone (command_of). The commands are checked (own_command_check.hpp). On a fault, the last good command is
   /// republished, which ends in standstill: the vehicle leaves its plan, and the controller treats
   /// it as a disturbed one. Plans beyond the lab's limits do not get this far: the controller drops
   /// them before it announces them. To be called once per list.
@@ -89,7 +92,8 @@ class HlcCore {
   std::unique_ptr<controller::Controller> controller_;
   std::map<VehicleId, SettledStates> settled_;
   std::optional<StepIndex> last_step_;
-  std::size_t stood_lists_{};  ///< consecutive, up to the last one
+  std::size_t stood_lists_{};    ///< consecutive, up to the last one
+  bool is_seen_from_begin_{};  ///< in a list of the time's first SettledStates::kSpan
   std::optional<TrajectoryCommand> last_good_;
   bool has_begun_{};
 };

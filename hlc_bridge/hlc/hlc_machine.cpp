@@ -195,8 +195,11 @@ bool HlcMachine::prepare(const Instant& now) {
     return false;
   }
   if (!may_stand_by()) {
-    phase_ = Phase::kIdle;
-    return true;
+    if (rules_.start == StartRule::kAtTrigger) {
+      phase_ = Phase::kIdle;
+      return true;
+    }
+    disregard_own_vehicle();
   }
   ReportRecord record{.report = step_.stand_by(observation)};
   notes_.note_placement(controller, actions_);
@@ -205,9 +208,18 @@ bool HlcMachine::prepare(const Instant& now) {
 }
 
 bool HlcMachine::may_stand_by() const {
-  const controller::Observation& observation = current_.observation;
-  if (rules_.start == StartRule::kTogether) return !core_.drives_former_plan(observation);
-  return !life_.readiness().yields_to_duplicate() && core_.may_stand_by(observation);
+  const bool yields =
+      rules_.start == StartRule::kAtTrigger && life_.readiness().yields_to_duplicate();
+  return !yields && core_.may_stand_by(current_.observation, rules_.start);
+}
+
+/// Under kTogether every list is answered: of a vehicle that is to be left alone without a plan, as
+/// if it were not seen.
+void HlcMachine::disregard_own_vehicle() {
+  const VehicleId own = controller().options().vehicle;
+  std::erase_if(current_.observation.states, [own](const coordination::MeasuredVehicle& one) {
+    return one.vehicle == own;
+  });
 }
 
 bool HlcMachine::step(const Instant& now) {

@@ -131,6 +131,7 @@ class HlcMachine {
   [[nodiscard]] bool has_started() const { return start_.time().has_value(); }
   [[nodiscard]] bool ends(const Instant& now);
   [[nodiscard]] bool may_stand_by() const;
+  void disregard_own_vehicle();
   void enter_experiment();
   void finish(ReportRecord record, const Instant& now);
   void publish_command(coordination::Report& report, const Instant& now);

@@ -16,7 +16,7 @@ enum class CommandFault : std::uint8_t {
   kTimesNotIncreasing,  ///< the points' times do not increase strictly                 (kept back)
   kFromTheFuture,       ///< create_stamp is later than the clock
   kMissedPeriod,        ///< create_stamp is before the list of the current period
-  kTooFewPoints,        ///< fewer than 3 points; none at all is a command to stand, and no fault
+  kTooFewPoints,        ///< fewer than 3 points; none at all command nothing, and are no fault
   kNoPointBefore,       ///< no point strictly before valid_after_stamp
   kNoPointAfter,        ///< no point at or after valid_after_stamp
 };

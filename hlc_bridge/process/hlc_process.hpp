@@ -50,6 +50,10 @@ struct HlcProcessOptions {
 /// from the next list on. Until then it sends no command: the vehicle drives the plan that it has
 /// (HlcCore::may_stand_by).
 ///
+/// Logical time: the same, except that every list is answered, with a command that has no effect,
+/// since the middleware waits for the answers; and that a vehicle that is seen from the begin of
+/// time on has no former plan.
+///
 /// Without its middleware it waits for a restart of the middleware, with the same timeout as at the
 /// start, and plans on then; meanwhile the vehicle makes a minimal-risk stop. In logical time, or
 /// when the others make a minimal-risk stop, too, it leaves at once.

@@ -171,6 +171,10 @@ class Controller {
   [[nodiscard]] std::vector<AnnouncedPlan> announced_plans() const;
 
   [[nodiscard]] bool has_plan() const { return in_force_.has_value(); }
+  /// The vehicle was measured in the last step.
+  [[nodiscard]] bool is_vehicle_seen() const {
+    return step_.observation.measured(options_.vehicle) != nullptr;
+  }
   /// In the last step the vehicle was to be sent nothing (rule 5 of plan_in_force.hpp).
   [[nodiscard]] bool is_vehicle_lost() const { return step_.is_vehicle_lost; }
   [[nodiscard]] const coordination::Plan& plan_in_force() const { return in_force_->plan(); }

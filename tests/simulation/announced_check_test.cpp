@@ -66,6 +66,27 @@ TEST_F(Announced, AVehicleStandsWhenItsLastPlanHasRunOut) {
   EXPECT_EQ(violations_.front().check, "stands");
 }
 
+TEST_F(Announced, WhatIsForgivenIsNotJudgedUntilItsControllerHasSeenTheVehicle) {
+  publish(0, 0.0);
+  check_.exempt(kCar, 0);
+  check_.published({.vehicle = kCar, .step = {1}, .running = stands_at(1, 0.0)}, false);
+  drive(0.5, 0, 5 * kAnnouncedPeriod);
+  EXPECT_TRUE(check_.is_exempt(kCar));
+  EXPECT_TRUE(violations_.empty());
+  publish(5, 0.0);
+  EXPECT_FALSE(check_.is_exempt(kCar));
+  drive(0.5, 5 * kAnnouncedPeriod, 9 * kAnnouncedPeriod);
+  EXPECT_EQ(violations_.size(), 1U);
+}
+
+TEST_F(Announced, WhatIsForgivenMustStandAllTheSame) {
+  publish(0, 0.0);
+  check_.exempt(kCar, 0);
+  drive(0.5, 0, AnnouncedCheck::kPlanLasts + kAnnouncedPeriod, 0.5);
+  ASSERT_EQ(violations_.size(), 1U);
+  EXPECT_EQ(violations_.front().check, "stands");
+}
+
 TEST_F(Announced, WhatIsForgivenIsNotJudgedUntilTheNextAnnouncement) {
   publish(0, 0.0);
   check_.exempt(kCar, 0);

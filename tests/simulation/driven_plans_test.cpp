@@ -25,15 +25,16 @@ class Driven : public testing::Test {
     publish(vehicle, step);
     agreed_m_[vehicle] = x_m;
     driven_.predicted({.vehicle = vehicle, .step = {step}, .areas = area_at(step + 1, x_m)});
-    driven_.commanded(command(vehicle, step), step * kDrivenPeriod + 1);
+    driven_.commanded(command(vehicle, step), step * kDrivenPeriod + 1, violations_);
     const coordination::Plan plan({step}, {.x_m = x_m}, standstill_);
     driven_.reported(
         {.vehicle = vehicle, .step = {step}, .status = coordination::StepStatus::kPlanned}, &plan);
   }
   /// The plan in force: to stand.
-  void publish(VehicleId vehicle, std::uint64_t step) {
+  void publish(VehicleId vehicle, std::uint64_t step, bool is_seen = true) {
     driven_.published(
-        {.vehicle = vehicle, .step = {step}, .running = area_at(step, agreed_m_[vehicle])});
+        {.vehicle = vehicle, .step = {step}, .running = area_at(step, agreed_m_[vehicle])},
+        is_seen);
   }
   static TrajectoryCommand command(VehicleId vehicle, std::uint64_t step) {
     return {.vehicle_id = vehicle.value,
@@ -115,6 +116,75 @@ TEST_F(Driven, AVehicleThatChangesOverLateAndIsThenSeenOffItsPlanIsOutOfReach) {
                      nullptr);
     EXPECT_EQ(driven_.is_out_of_reach(kFirst, 13 * kDrivenPeriod), is_seen_off);
   }
+}
+
+/// Of steps 11 and 12 only the later command arrives, after the plan of step 11 has begun.
+TEST_F(Driven, AVehicleThatChangesOverLateToALaterPlanIsOutOfReachUntilTheNextStep) {
+  for (const bool is_late : {false, true}) {
+    SCOPED_TRACE(is_late);
+    driven_ = DrivenPlans{8, kDrivenPeriod};
+    agree(kFirst, 10, 0.0);
+    receive(kFirst, 10);
+    drive(kFirst, 10, 10);
+    agree(kFirst, 11, 1.0);
+    if (!is_late) receive(kFirst, 11);
+    drive(kFirst, 11, is_late ? 10 : 11);
+    agree(kFirst, 12, 2.0);
+    receive(kFirst, 12);
+    drive(kFirst, 12, 12);
+    drive(kFirst, 12, 12);
+    EXPECT_EQ(driven_.is_out_of_reach(kFirst, 12 * kDrivenPeriod + kVehiclePeriod), is_late);
+  }
+}
+
+TEST_F(Driven, AVehicleThatHasChangedOverLateIsOutOfReachWhileTheSecondListIsOverdue) {
+  agree(kFirst, 10, 0.0);
+  receive(kFirst, 10);
+  drive(kFirst, 10, 10);
+  agree(kFirst, 11, 1.0);
+  drive(kFirst, 11, 10);
+  receive(kFirst, 11);
+  drive(kFirst, 12, 11);
+  publish(kFirst, 13);
+  driven_.reported({.vehicle = kFirst, .step = {13}}, nullptr);
+  const auto is_out_of_reach_in = [this](std::uint64_t step) {
+    drive(kFirst, step, 11);
+    drive(kFirst, step, 11);
+    return driven_.is_out_of_reach(kFirst, step * kDrivenPeriod + kVehiclePeriod);
+  };
+  EXPECT_FALSE(is_out_of_reach_in(13));
+  EXPECT_FALSE(is_out_of_reach_in(14));
+  EXPECT_TRUE(is_out_of_reach_in(15));
+  publish(kFirst, 16);
+  EXPECT_FALSE(is_out_of_reach_in(16));
+}
+
+TEST_F(Driven, AControllerThatDoesNotSeeItsVehicleIsNotMistaken) {
+  for (const bool is_seen : {false, true}) {
+    SCOPED_TRACE(is_seen);
+    driven_ = DrivenPlans{8, kDrivenPeriod};
+    agree(kFirst, 10, 0.0);
+    receive(kFirst, 10);
+    drive(kFirst, 10, 10);
+    agree(kFirst, 11, 1.0);
+    for (std::uint64_t step = 12; step < 15; ++step) publish(kFirst, step, is_seen);
+    drive(kFirst, 14, 10);
+    EXPECT_EQ(driven_.is_out_of_reach(kFirst, 14 * kDrivenPeriod), is_seen);
+  }
+}
+
+TEST_F(Driven, AVehicleThatIsNotSeenIsSentNothingUntilItsControllerIsRestarted) {
+  agree(kFirst, 10, 0.0);
+  publish(kFirst, 11, false);
+  driven_.commanded(command(kFirst, 10), 10 * kDrivenPeriod + 2, violations_);
+  EXPECT_TRUE(violations_.empty()) << "a copy";
+  driven_.controller_started(kFirst);
+  driven_.commanded(command(kFirst, 11), 11 * kDrivenPeriod + 1, violations_);
+  EXPECT_TRUE(violations_.empty());
+  publish(kFirst, 12, false);
+  driven_.commanded(command(kFirst, 12), 12 * kDrivenPeriod + 1, violations_);
+  ASSERT_EQ(violations_.size(), 1U);
+  EXPECT_EQ(violations_.front().check, "commands");
 }
 
 TEST_F(Driven, AVehicleThatChangesOverInTimeIsInReachEvenIfItIsSeenOffItsPlan) {

@@ -180,5 +180,68 @@ TEST(FoundFault, Seed1178InLogicalTimeARestartedControllerLeavesAMovingVehicleAl
         .process = controller_name(4)}});
 }
 
+/// The same for a vehicle that rolls slowly at the end of its plan: it was commanded to stand
+/// beside it, and another one touched it.
+TEST(FoundFault, Seed9026InLogicalTimeARestartedControllerLeavesASlowVehicleAlone) {
+  run(paper(7, 0x9827360e0125d397),
+      {.seed = 9026, .is_logical = true, .transport = Transport::kLoopback},
+      {{.kind = FaultKind::kKill,
+        .begin = 664'469'338,
+        .end = 5'739'808'986,
+        .process = controller_name(1)}});
+}
+
+/// The same for a vehicle that is not seen, since its middleware was restarted, too, and begins
+/// with the lists of the past.
+TEST(FoundFault, Seed8097InLogicalTimeARestartedControllerLeavesAnUnseenVehicleAlone) {
+  run(paper(4, 0x40815f0559f4f99a),
+      {.seed = 8097, .is_logical = true, .transport = Transport::kLoopback},
+      {{.kind = FaultKind::kCut,
+        .begin = 1'152'790'205,
+        .end = 3'875'277'671,
+        .process = middleware_name(4),
+        .peer = controller_name(4),
+        .share = 1.0},
+       {.kind = FaultKind::kKill,
+        .begin = 1'775'975'617,
+        .end = 1'812'411'379,
+        .process = controller_name(4)},
+       {.kind = FaultKind::kKill,
+        .begin = 1'778'010'174,
+        .end = 1'874'278'622,
+        .process = middleware_name(4)},
+       {.kind = FaultKind::kKill,
+        .begin = 3'258'111'992,
+        .end = 3'296'948'501,
+        .process = kLabControlName}});
+}
+
+/// Seed 101734 with two commands: the late one brings the missed plan, already continued by the
+/// next one. The first list afterwards shows a state of 20 ms later, on the plan; two are lost.
+TEST(FoundFault, Seed17395AVehicleThatChangesOverLateToALaterPlanIsOutOfReach) {
+  const FaultRunResult result =
+      run(paper(5, 0x96a803918bfeca28), {.seed = 17395, .transport = Transport::kLab},
+          {{.kind = FaultKind::kLose, .end = 14'000 * kMs, .share = 0.26621008556306713}});
+  EXPECT_GT(result.unreachable, 0U);
+}
+
+/// Commands come up to 0.8 s late, are dropped and followed again, and the vehicle comes to rest 40
+/// mm beside its plan. For 2.8 s its controller does not see where.
+TEST(FoundFault, Seed22554WhereAVehicleIsAfterwardsNobodyKnowsUntilItIsSeen) {
+  const FaultRunResult result =
+      run(paper(5, 0xa5dbc44e09efcd0b), {.seed = 22554, .transport = Transport::kLoopback},
+          {{.kind = FaultKind::kReorder,
+            .begin = 3'827'713'350,
+            .end = 5'517'396'588,
+            .share = 1.0,
+            .amount = 407'527'249},
+           {.kind = FaultKind::kDelay,
+            .begin = 4'008'626'028,
+            .end = 7'985'105'260,
+            .share = 0.54683554917355637,
+            .amount = 406'470'976}});
+  EXPECT_GT(result.unreachable, 0U);
+}
+
 }  // namespace
 }  // namespace hlc::closed_loop

@@ -86,7 +86,9 @@ class ObservedRun final : private RunObserver {
   void on_log(NodeId node, const machine::LogLine& line) override;
   void on_driven(std::uint8_t vehicle, Nanoseconds time,
                  const result::DrivenSample& sample) override;
-  void on_traffic(const coordination::Traffic& traffic) override { monitor_.on_traffic(traffic); }
+  void on_traffic(const coordination::Traffic& traffic, bool is_seen) override {
+    monitor_.on_traffic(traffic, is_seen);
+  }
   void on_prediction(const coordination::Prediction& prediction) override {
     monitor_.on_prediction(prediction);
   }

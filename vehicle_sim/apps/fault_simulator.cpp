@@ -98,16 +98,19 @@ void print_failure(const FaultCampaign& campaign, std::uint64_t seed, const std:
 
 thread_local std::uint64_t seed_at_work = 0;
 
-/// An assertion of the code under test failed, in the thread that runs this seed.
-void report_abort(int /*signal*/) {
+/// An assertion of the code under test failed, or it crashed, in the thread that runs this seed.
+void report_abort(int signal) {
+  static_cast<void>(std::signal(signal, SIG_DFL));
   char text[64];
-  const int size = std::snprintf(text, sizeof text, "seed %llu fails: abort: --replay it\n",
-                                 static_cast<unsigned long long>(seed_at_work));
+  const int size = std::snprintf(text, sizeof text, "seed %llu fails: %s: --replay it\n",
+                                 static_cast<unsigned long long>(seed_at_work),
+                                 signal == SIGABRT ? "abort" : "crash");
   if (write(STDOUT_FILENO, text, static_cast<std::size_t>(size)) < 0) return;
 }
 
 int campaign(const Choices& choices, const std::string& flags) {
   static_cast<void>(std::signal(SIGABRT, report_abort));
+  static_cast<void>(std::signal(SIGSEGV, report_abort));
   const FaultCampaign campaign(choices.campaign);
   hlc::closed_loop::FaultTotals totals;
   std::vector<std::uint64_t> failed;

@@ -5,8 +5,10 @@
 
 namespace hlc::closed_loop {
 
-void AnnouncedCheck::published(const coordination::Traffic& traffic) {
+void AnnouncedCheck::published(const coordination::Traffic& traffic, bool is_seen) {
   Car& car = cars_[traffic.vehicle];
+  if (car.is_exempt && !is_seen) return;
+  car.is_exempt = false;
   car.running = traffic.running;
   car.agreed.reset();
 }
@@ -36,11 +38,8 @@ bool AnnouncedCheck::is_inside(const Car& car, StepIndex step, const Pose& pose)
   return false;
 }
 
-void AnnouncedCheck::driven(VehicleId vehicle, Nanoseconds tick, const Pose& pose, double speed_mps,
-                            Violations& violations) {
-  const auto found = cars_.find(vehicle);
-  if (found == cars_.end() || !found->second.running) return;
-  Car& car = found->second;
+void AnnouncedCheck::check_area(VehicleId vehicle, Car& car, Nanoseconds tick, const Pose& pose,
+                                Violations& violations) const {
   if (is_inside(car, {tick / period_}, pose)) {
     car.outside_since.reset();
   } else if (!car.outside_since) {
@@ -52,6 +51,15 @@ void AnnouncedCheck::driven(VehicleId vehicle, Nanoseconds tick, const Pose& pos
                           .text = "vehicle " + std::to_string(vehicle.value) +
                                   " is outside all that was announced of it, for 0.5 s"});
   }
+}
+
+void AnnouncedCheck::driven(VehicleId vehicle, Nanoseconds tick, const Pose& pose, double speed_mps,
+                            Violations& violations) {
+  const auto found = cars_.find(vehicle);
+  if (found == cars_.end()) return;
+  Car& car = found->second;
+  if (!car.running && !car.is_exempt) return;  // before the first plan
+  if (car.running) check_area(vehicle, car, tick, pose, violations);
   if (!car.runs_on && std::abs(speed_mps) > kMoving_mps && tick > car.last_plan + kPlanLasts) {
     car.runs_on = true;
     violations.push_back(

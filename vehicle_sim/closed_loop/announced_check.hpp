@@ -30,7 +30,8 @@ class AnnouncedCheck {
   AnnouncedCheck(const Footprint& footprint, Nanoseconds period)
       : footprint_(footprint), period_(period) {}
 
-  void published(const coordination::Traffic& traffic);
+  /// @param is_seen  its controller sees the vehicle in this step
+  void published(const coordination::Traffic& traffic, bool is_seen = true);
   void predicted(const coordination::Prediction& prediction) {
     cars_[prediction.vehicle].predicted = prediction;
   }
@@ -38,14 +39,20 @@ class AnnouncedCheck {
   /// @param tick  its time
   void driven(VehicleId vehicle, Nanoseconds tick, const Pose& pose, double speed_mps,
               Violations& violations);
-  /// It is not checked until something new is announced of it. @param tick  now
+  /// Where it is, nobody can know: that is not checked until something new is announced of it by a
+  /// controller that has seen it since. @param tick  now
   void exempt(VehicleId vehicle, Nanoseconds tick) {
     Car& car = cars_[vehicle];
+    car.is_exempt |= car.running.has_value();
     car.running.reset();
     car.agreed.reset();
     car.before.reset();
     car.outside_since.reset();
     car.last_plan = tick;
+  }
+  [[nodiscard]] bool is_exempt(VehicleId vehicle) const {
+    const auto car = cars_.find(vehicle);
+    return car != cars_.end() && car->second.is_exempt;
   }
 
  private:
@@ -56,11 +63,14 @@ class AnnouncedCheck {
     std::optional<coordination::Prediction> predicted;
     std::optional<Nanoseconds> outside_since;
     Nanoseconds last_plan{};
+    bool is_exempt{};  ///< since something was announced
     bool is_reported{};
     bool runs_on{};
   };
 
   [[nodiscard]] bool is_inside(const Car& car, StepIndex step, const Pose& pose) const;
+  void check_area(VehicleId vehicle, Car& car, Nanoseconds tick, const Pose& pose,
+                  Violations& violations) const;
 
   Footprint footprint_;
   Nanoseconds period_;

@@ -76,7 +76,7 @@ class ControllerHost : public Host {
   }
 
   void perform(const coordination::Traffic& traffic) const {
-    place().observer->on_traffic(traffic);
+    place().observer->on_traffic(traffic, machine_->controller().is_vehicle_seen());
     publish(kTraffic, traffic);
   }
   void perform(const coordination::Prediction& prediction) const {

@@ -12,16 +12,25 @@ namespace {
 constexpr std::size_t kKeptCommands = 16;  // more than a command's lifetime, copy included
 /// More than the pause between a command and its copy.
 constexpr Nanoseconds kCopyPause = 10 * kNanosecondsPerMillisecond;
+/// By then a controller has seen what its vehicle does after a late change.
+constexpr std::size_t kStepsToShow = 2;
 
 }  // namespace
 
-void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at) {
+void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at,
+                            Violations& violations) {
+  if (command.points.empty()) return;  // it changes nothing (command_of)
   Car& car = cars_[{command.vehicle_id}];
-  car.is_commanded_to_stand = command.points.empty();
   const Nanoseconds usable_until = command.valid_after_stamp + kCommandLifetime;
   if (!car.sent.empty() && car.sent.back().create == command.create_stamp) {  // the copy
     car.sent.back().usable_until = usable_until;
     return;
+  }
+  if (!car.is_seen && off_command_.insert({command.vehicle_id}).second) {
+    violations.push_back({.at = at,
+                          .check = "commands",
+                          .text = "vehicle " + std::to_string(command.vehicle_id) +
+                                  " is sent a command, and its controller does not see it"});
   }
   car.sent.push_back(
       {.create = command.create_stamp, .at = at, .usable_until = usable_until, .plan = nullptr});
@@ -33,10 +42,12 @@ bool DrivenPlans::has_newest_plan(const Car& car) {
   return car.num_agreed == 0 || (newest && newest->number == car.agreed->number);
 }
 
-void DrivenPlans::published(const coordination::Traffic& traffic) {
+void DrivenPlans::published(const coordination::Traffic& traffic, bool is_seen) {
   Car& car = cars_[traffic.vehicle];
   car.announced = traffic.running;
-  if (has_newest_plan(car)) return;
+  if (traffic.step.value * period_ > car.late_change.at) ++car.late_change.steps_begun;
+  car.is_seen = is_seen;
+  if (has_newest_plan(car) || !is_seen) return;
   car.is_mistaken = true;
   if (traffic.step.value >= car.missed_since.value + 2) {
     car.out_of_reach_until = traffic.step.value * period_ + kAfterwards;
@@ -73,7 +84,7 @@ void DrivenPlans::reported(const coordination::Report& report, const coordinatio
     car.agreed = kept_plan(car, report, *in_force);
   }
   if (report.reason == coordination::FallbackReason::kDeviation ||
-      report.status == coordination::StepStatus::kStandby) {
+      (report.status == coordination::StepStatus::kStandby && in_force != nullptr)) {
     car.is_mistaken = false;
   }
   note_observation(car, report);
@@ -85,12 +96,19 @@ void DrivenPlans::reported(const coordination::Report& report, const coordinatio
 /// What the controller sees after the vehicle has changed over late.
 void DrivenPlans::note_observation(Car& car, const coordination::Report& report) const {
   const Nanoseconds at = report.step.value * period_;
-  if (at <= car.late_change.at) return;
-  if (report.reason == coordination::FallbackReason::kDeviation && car.late_change.at != 0 &&
-      (car.late_change.is_unseen_since || at <= car.late_change.at + 2 * period_)) {
+  if (car.late_change.at == 0 || at <= car.late_change.at) return;
+  if (++car.late_change.steps_ended <= kStepsToShow &&
+      report.reason == coordination::FallbackReason::kDeviation) {
     car.out_of_reach_until = at + kAfterwards;
   }
-  car.late_change.is_unseen_since = false;
+}
+
+bool DrivenPlans::is_unseen_after_change(const Car& car, Nanoseconds tick) const {
+  const LateChange& change = car.late_change;
+  if (change.at == 0 || tick >= change.at + kAfterwards) return false;
+  const bool is_overdue =
+      change.steps_begun < kStepsToShow && tick > change.at + kStepsToShow * period_;
+  return change.steps_ended == 0 || is_overdue;
 }
 
 /// The plan in force where nothing new has been agreed: the same as before, an older one that the
@@ -136,7 +154,7 @@ DrivenPlans::AgreedPlan DrivenPlans::plan_of(const Car& car, Nanoseconds create)
 
 bool DrivenPlans::has_dropped_plan(const Car& car, Nanoseconds tick) const {
   const AgreedPlan newest = plan_of(car, car.received.newest());
-  if (car.follows != 0 || car.is_commanded_to_stand || !newest || !newest->areas) return false;
+  if (car.follows != 0 || !newest || !newest->areas) return false;
   const bool has_run_out =
       tick / period_ >= newest->areas->first.value + newest->areas->areas_m.size();
   return !has_run_out && tick >= car.received.usable_until();
@@ -183,7 +201,7 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   if (has_newest_plan(car)) car.is_mistaken = false;
   const bool is_lost = car.is_mistaken && tick / period_ >= car.missed_since.value + 2;
   if (is_lost) car.out_of_reach_until = tick + kAfterwards;
-  if (car.late_change.is_unseen_since && tick < car.late_change.at + kAfterwards) {
+  if (is_unseen_after_change(car, tick)) {
     car.out_of_reach_until = std::max(car.out_of_reach_until, tick + kVehiclePeriod);
   }
   check_drop(vehicle, car, tick, violations);
@@ -191,18 +209,23 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   if (!changes || follows == 0) return;
   const AgreedPlan plan = plan_of(car, follows);
   if (!plan || plan == car.driven) return;
-  if (is_change_late(car, plan, tick)) car.late_change = {.at = tick, .is_unseen_since = true};
+  if (is_change_late(car, plan, tick)) car.late_change = {.at = tick};
   car.driven = plan;
   car.stands.reset();
   check_pairs(vehicle, tick, violations);
 }
 
-/// The plan was commanded before it began; the vehicle, which drove another one, has not received
-/// it until after that.
+/// The plan, or one between the driven one and it, was commanded before it began; the vehicle has
+/// not received it until after that.
 bool DrivenPlans::is_change_late(const Car& car, const AgreedPlan& plan, Nanoseconds tick) {
-  if (!car.driven || plan->is_anchored || tick < plan->begin + kVehiclePeriod) return false;
-  return std::ranges::any_of(
-      car.sent, [&](const Sent& sent) { return sent.plan == plan && sent.at < plan->begin; });
+  if (!car.driven || plan->is_anchored) return false;
+  return std::ranges::any_of(car.sent, [&](const Sent& sent) {
+    if (!sent.plan || sent.plan->is_anchored) return false;
+    const bool is_between =
+        car.driven->number < sent.plan->number && sent.plan->number < plan->number;
+    return (sent.plan == plan || is_between) && sent.at < sent.plan->begin &&
+           tick >= sent.plan->begin + kVehiclePeriod;
+  });
 }
 
 void DrivenPlans::check_order(VehicleId vehicle, Car& car, Nanoseconds tick,

@@ -26,19 +26,23 @@ namespace hlc::closed_loop {
 ///   stands has been agreed by nobody: of that the footprints are checked. Once the plan of a
 ///   vehicle has run out, the vehicle stands where its controller announces.
 /// * **commands**: a vehicle follows the newest command that it has received and that is valid; and
-///   its controller has sent it all that it needs to drive the plan to its end.
+///   its controller has sent it all that it needs to drive the plan to its end, and, in real time,
+///   nothing while it does not see it (rule 5 of plan_in_force.hpp).
 ///
 /// **The limits of what controllers can promise** (plan_in_force.hpp). A controller is *mistaken*
 /// about its vehicle if it publishes traffic while the vehicle has not received the plan in force,
-/// which was agreed in a step before, and reports no deviation: the others rely on a plan that is
-/// not driven. A vehicle is *out of reach*
+/// which was agreed in a step before, although it sees the vehicle, and reports no deviation: the
+/// others rely on a plan that is not driven. A vehicle is *out of reach*
 ///   * while its controller is mistaken, from the second step after the first plan that it has not
 ///     received;
 ///   * while it has dropped its command before the end of the plan, since what was sent has not
 ///     arrived, or the controller was stopped between a command and its copy;
-///   * when it has received a plan that was sent in time only after that had begun, and has changed
-///     over to it late, that is on a way that nobody could know: until its controller's next step,
-///     and longer if it is then seen off the plan (kDeviation in the next two steps);
+///   * when it has received a plan that was sent in time only after that had begun (with its own
+///     command, or with that of a later plan, which continues it), and has changed over to it late,
+///     that is on a way that nobody could know: until its controller's next step, and longer if it
+///     is then seen off the plan (kDeviation in the next two steps). The first of these steps may
+///     not show it yet, since states are older than their list: if the second one is overdue, since
+///     its list is lost, the vehicle is out of reach until it begins;
 ///   * when its process dies;
 /// and for kAfterwards longer, while others may drive what they have agreed to meanwhile. Only what
 /// the vehicle has not received counts: commands that it has it must follow.
@@ -54,15 +58,18 @@ class DrivenPlans {
   void predicted(const coordination::Prediction& prediction) {
     cars_[prediction.vehicle].predicted = prediction;
   }
-  void published(const coordination::Traffic& traffic);
+  /// @param is_seen  the controller sees its vehicle in this step, or cannot tell from its lists
+  void published(const coordination::Traffic& traffic, bool is_seen = true);
   /// @param at  true time
-  void commanded(const TrajectoryCommand& command, Nanoseconds at);
+  void commanded(const TrajectoryCommand& command, Nanoseconds at, Violations& violations);
   /// What was commanded before in the same step is of the plan in force after it.
   void reported(const coordination::Report& report, const coordination::Plan* in_force);
   void received(const TrajectoryCommand& command);
   /// @param follows  create_stamp of the command that is followed; 0: none
   void driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follows, Violations& violations);
   void died(VehicleId vehicle, Nanoseconds at);
+  /// Another controller of the vehicle begins.
+  void controller_started(VehicleId vehicle) { cars_[vehicle].is_seen = true; }
   /// Its controller's process has ended or is suspended. @param at  true time
   void controller_stopped(VehicleId vehicle, Nanoseconds at) {
     Car& car = cars_[vehicle];
@@ -95,8 +102,9 @@ class DrivenPlans {
     AgreedPlan plan;
   };
   struct LateChange {
-    Nanoseconds at{};        ///< tick of the last one; 0: none
-    bool is_unseen_since{};  ///< the controller has made no step since then
+    Nanoseconds at{};           ///< tick of the last one; 0: none
+    std::size_t steps_begun{};  ///< by the controller since then
+    std::size_t steps_ended{};
   };
   struct Car {
     std::optional<coordination::Prediction> predicted;
@@ -106,8 +114,8 @@ class DrivenPlans {
     std::uint64_t num_agreed{};
     StepIndex missed_since;  ///< step of the first plan that the vehicle has not received
     bool is_mistaken{};
+    bool is_seen{true};     ///< by its controller, in its last step
     std::deque<Sent> sent;  ///< the newest last
-    bool is_commanded_to_stand{};
     ReceivedCommands received;
     Nanoseconds controller_stopped{};  ///< for the first time after what it sent last
     Nanoseconds follows{};
@@ -124,6 +132,7 @@ class DrivenPlans {
   [[nodiscard]] static bool is_change_late(const Car& car, const AgreedPlan& plan,
                                            Nanoseconds tick);
   void note_observation(Car& car, const coordination::Report& report) const;
+  [[nodiscard]] bool is_unseen_after_change(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] static bool has_all_that_was_sent(const Car& car);
   void check_drop(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);

@@ -51,8 +51,7 @@ class Draw {
         scatter(random_.below(2), faults);
         break;
       case FaultStyle::kSilence:
-        for (std::size_t i = 1 + random_.below(4); i > 0; --i) add_lost_controllers(faults);
-        scatter(random_.below(2), faults);
+        add_silence(faults);
         break;
     }
     std::ranges::stable_sort(faults, {}, &Fault::begin);
@@ -124,6 +123,32 @@ class Draw {
     faults.push_back(fault);
   }
 
+  void add_silence(std::vector<Fault>& faults) {
+    const double kind = random_.share();
+    if (kind < 0.3) add_mute_controller(faults);
+    if (kind >= 0.7) add_lossy_controllers(faults);
+    for (std::size_t i = 1 + random_.below(4); i > 0; --i) add_lost_controllers(faults);
+    scatter(random_.below(2), faults);
+  }
+
+  /// Every controller loses messages of every other one, all the time, so that two of them often
+  /// miss each other's plans of the same step.
+  void add_lossy_controllers(std::vector<Fault>& faults) {
+    if (!is_asked_for(FaultKind::kWithhold)) return;
+    Fault fault{.kind = FaultKind::kWithhold,
+                .begin = settings_.first,
+                .end = settings_.last,
+                .share = 0.2 + 0.4 * random_.share()};
+    for (const std::uint8_t from : settings_.vehicle_ids) {
+      for (const std::uint8_t to : settings_.vehicle_ids) {
+        if (from == to) continue;
+        fault.process = controller_name(from);
+        fault.peer = controller_name(to);
+        faults.push_back(fault);
+      }
+    }
+  }
+
   /// Of two controllers: of both, with losses all the time, or of one, for long.
   void add_lost_controllers(std::vector<Fault>& faults) {
     const auto any_controller = [this] {
@@ -142,6 +167,27 @@ class Draw {
     if (!is_mutual) return;
     std::swap(fault.process, fault.peer);
     faults.push_back(fault);
+  }
+
+  /// It is suspended for so long that it is believed dead, and no other one receives it any more.
+  void add_mute_controller(std::vector<Fault>& faults) {
+    const std::vector<std::uint8_t>& ids = settings_.vehicle_ids;
+    const std::uint8_t id = ids[random_.below(ids.size())];
+    const Nanoseconds span = settings_.last - settings_.first;
+    Fault pause{.kind = FaultKind::kFreeze,
+                .begin = settings_.first + random_.below(span / 2),
+                .process = controller_name(id)};
+    pause.end = std::min(pause.begin + duration(3000 * kMs, 6000 * kMs), settings_.last);
+    if (!is_asked_for(FaultKind::kFreeze) || !is_asked_for(FaultKind::kCut)) return;
+    faults.push_back(pause);
+    for (const std::uint8_t other : ids) {
+      if (other == id) continue;
+      faults.push_back({.kind = FaultKind::kCut,
+                        .begin = pause.begin,
+                        .end = settings_.last,
+                        .process = controller_name(id),
+                        .peer = controller_name(other)});
+    }
   }
 
   [[nodiscard]] bool is_asked_for(FaultKind kind) const {

@@ -49,7 +49,9 @@ enum class FaultStyle : std::uint8_t {
   kLossy,      ///< links that lose 10 ... 30 % all the time, and some scattered faults
   kRestart,    ///< processes that are killed and come back soon, while messages to them are lost
   kBorder,     ///< messages that are stale, come twice or overtake others by about a step or two
-  kSilence,    ///< controllers that lose much of what others of them send, or one of another all
+  /// Controllers that lose much of what others of them send, or one of another all, or each of
+  /// each; or one that all others lose while it is suspended, and that comes back
+  kSilence,
 };
 
 struct FaultPlanSettings {

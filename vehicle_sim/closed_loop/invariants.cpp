@@ -119,10 +119,11 @@ void PlansCheck::reported(const coordination::Report& report, const coordination
   const auto before = in_force_.find(vehicle);
   if (before != in_force_.end()) {
     before->second.last_report = report.step;
+    const bool has_no_new_plan =
+        report.status != coordination::StepStatus::kPlanned && in_force != nullptr;
     if (report.reason == coordination::FallbackReason::kDeviation ||
-        report.status == coordination::StepStatus::kStandby ||
-        (report.status != coordination::StepStatus::kPlanned && in_force != nullptr &&
-         is_anchored(*in_force))) {
+        (has_no_new_plan &&
+         (report.status == coordination::StepStatus::kStandby || is_anchored(*in_force)))) {
       in_force_.erase(before);
     }
   }

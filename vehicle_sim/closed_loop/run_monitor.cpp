@@ -100,8 +100,12 @@ void RunMonitor::on_report(const ReportRecord& record, const coordination::Plan*
   const coordination::Report& report = record.report;
   ++result_.car_steps;
   if (report.status == coordination::StepStatus::kPlanned) ++result_.planned;
-  if (driven_.is_out_of_reach(report.vehicle, report.step.value * period_)) ++result_.unreachable;
+  if (driven_.is_out_of_reach(report.vehicle, report.step.value * period_) ||
+      announced_.is_exempt(report.vehicle)) {
+    ++result_.unreachable;
+  }
   planning_.report(record, lab_->now());
+  check_lab_control(report);
   plans_.reported(report, in_force, lab_->now(), result_.violations);
   driven_.reported(report, in_force);
   announced_.reported(report, report.step.value * period_);
@@ -111,8 +115,20 @@ void RunMonitor::on_report(const ReportRecord& record, const coordination::Plan*
   trace([&] { return report_line(report); });
 }
 
+/// Nobody could stop the cars. In logical time ticks end without the lab control.
+void RunMonitor::check_lab_control(const coordination::Report& report) {
+  const bool is_gone =
+      lab_control_died_ && lab_->true_time() > *lab_control_died_ + kLabControlIsMissed;
+  if (!is_gone || lab_->is_logical() || report.status != coordination::StepStatus::kPlanned) return;
+  result_.violations.push_back({.at = lab_->now(),
+                                .check = "stop",
+                                .text = "vehicle " + std::to_string(report.vehicle.value) +
+                                        " plans, and the lab control has been dead for 3 s"});
+  lab_control_died_.reset();  // once
+}
+
 void RunMonitor::on_command(const TrajectoryCommand& command) {
-  driven_.commanded(command, lab_->true_time());
+  driven_.commanded(command, lab_->true_time(), result_.violations);
   add_to_hash(command.create_stamp);
 }
 
@@ -122,6 +138,7 @@ void RunMonitor::held_up(const ProcessSlot& slot) {
 }
 
 void RunMonitor::killed(const ProcessSlot& slot) {
+  if (slot.key.role == Role::kLabControl) lab_control_died_ = lab_->true_time();
   if (slot.key.role != Role::kVehicle || slot.process) return;
   footprints_.died(slot.key.vehicle, DrivenPlans::kAfterwards / kVehiclePeriod);
   const Nanoseconds tick = last_[slot.key.vehicle].tick;
@@ -133,6 +150,8 @@ void RunMonitor::changed(const ProcessSlot& slot) {
   if (!slot.exit_code) {
     reasons_.started(slot.name);
     if (slot.key.role == Role::kVehicle) came_back(slot.key.vehicle);
+    if (slot.key.role == Role::kLabControl) lab_control_died_.reset();
+    if (slot.key.role == Role::kController) driven_.controller_started({slot.key.vehicle});
     return trace([&] { return slot.name + " starts"; });
   }
   trace([&] { return slot.name + " ends with code " + std::to_string(*slot.exit_code); });

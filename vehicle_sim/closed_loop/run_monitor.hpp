@@ -20,10 +20,11 @@ using Trace = std::function<void(Nanoseconds at, const std::string& line)>;
 
 struct FaultRunResult {
   Violations violations;
-  std::uint64_t hash{};          ///< of all that was reported, driven and logged, and when
-  std::uint64_t car_steps{};     ///< control steps that were reported
-  std::uint64_t planned{};       ///< car-steps with a new plan
-  std::uint64_t unreachable{};   ///< car-steps of vehicles out of reach (DrivenPlans)
+  std::uint64_t hash{};       ///< of all that was reported, driven and logged, and when
+  std::uint64_t car_steps{};  ///< control steps that were reported
+  std::uint64_t planned{};    ///< car-steps with a new plan
+  /// Car-steps of vehicles that are out of reach (DrivenPlans), or not seen since (AnnouncedCheck)
+  std::uint64_t unreachable{};
   double smallest_distance_m{};  ///< between driven footprints
 };
 
@@ -40,9 +41,9 @@ class RunMonitor final : public RunObserver {
   void on_log(NodeId node, const machine::LogLine& line) override;
   void on_driven(std::uint8_t vehicle, Nanoseconds time,
                  const result::DrivenSample& sample) override;
-  void on_traffic(const coordination::Traffic& traffic) override {
-    driven_.published(traffic);
-    announced_.published(traffic);
+  void on_traffic(const coordination::Traffic& traffic, bool is_seen) override {
+    driven_.published(traffic, is_seen || lab_->is_logical());
+    announced_.published(traffic, is_seen);
     plans_.published(traffic);
   }
   void on_prediction(const coordination::Prediction& prediction) override;
@@ -74,7 +75,11 @@ class RunMonitor final : public RunObserver {
   }
 
  private:
+  /// A lease, and the step under way.
+  static constexpr Nanoseconds kLabControlIsMissed = 3 * kNanosecondsPerSecond;
+
   void came_back(std::uint8_t vehicle);
+  void check_lab_control(const coordination::Report& report);
   void add_to_hash(std::uint64_t value);
 
   Nanoseconds period_;
@@ -94,6 +99,7 @@ class RunMonitor final : public RunObserver {
   };
   std::map<std::uint8_t, Last> last_;
   std::set<std::uint8_t> stopped_;
+  std::optional<Nanoseconds> lab_control_died_;
   FaultRunResult result_;
   bool has_violation_{};
 };

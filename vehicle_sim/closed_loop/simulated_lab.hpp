@@ -54,6 +54,7 @@ class SimulatedLab {
   /// True time since the begin.
   [[nodiscard]] Nanoseconds now() const;
   /// What an exact clock shows.
+  [[nodiscard]] bool is_logical() const { return settings_.is_logical; }
   [[nodiscard]] Nanoseconds true_time() const { return now_; }
   /// `step` returns this number at that time.
   void set_alarm(Nanoseconds at, std::uint32_t number);

@@ -23,7 +23,8 @@ class RunObserver {
   /// @param time  of the sample, true in real time, of the run in logical time
   virtual void on_driven(std::uint8_t vehicle, Nanoseconds time,
                          const result::DrivenSample& sample) = 0;
-  virtual void on_traffic(const coordination::Traffic& traffic) = 0;
+  /// @param is_seen  the controller sees its vehicle in this step
+  virtual void on_traffic(const coordination::Traffic& traffic, bool is_seen) = 0;
   /// The plan of a step; the report shows whether it came into force.
   virtual void on_prediction(const coordination::Prediction& prediction) = 0;
   /// @param in_force  the plan after the step; nullptr: none

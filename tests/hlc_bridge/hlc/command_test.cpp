@@ -55,11 +55,15 @@ TEST(Command, ReachesBeyondTheLookAheadAsLongAsACopyIsUsable) {
   EXPECT_EQ(command.points.back().vy_mps, 0.0);
 }
 
-TEST(Command, WithoutAPlanHasNoPointsThatAVehicleCouldFollow) {
+TEST(Command, WithoutAPlanTakesNoFormerCommandAwayFromTheVehicle) {
   const TrajectoryCommand command =
       command_of({7}, nullptr, kStep, kNow, kPeriod, automaton::paper_automaton()->vehicle);
   EXPECT_TRUE(command.points.empty());
-  EXPECT_EQ(command.create_stamp, kNow);
+  EXPECT_EQ(command.create_stamp, kNow) << "it answers the list";
+  const coordination::Plan plan({kStep}, {1.0, 2.0, 0.5}, edge(1, 1));
+  const TrajectoryCommand former = copy_for_later(
+      command_of({7}, &plan, kStep, kNow, kPeriod, automaton::paper_automaton()->vehicle));
+  EXPECT_GE(command.valid_after_stamp, former.valid_after_stamp + kCommandLifetime);
 }
 
 TEST(Command, AtTheBeginOfLogicalTimeNoPointLiesBeforeZero) {

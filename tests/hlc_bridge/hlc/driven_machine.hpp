@@ -21,7 +21,7 @@ namespace hlc::high_level_controller::driven_machine {
 inline constexpr Nanoseconds kPeriod = kNanosecondsPerSecond / 5;
 inline constexpr Nanoseconds kSecond = kNanosecondsPerSecond;
 inline constexpr Nanoseconds kMillisecond = kNanosecondsPerMillisecond;
-inline constexpr std::uint64_t kFirstStep = 1000;
+inline constexpr std::uint64_t kFirstStep = 1000;  ///< in real time; logical time begins at 0
 
 inline HlcRules real_time() { return rules_in_real_time(true, {}, 30 * kSecond); }
 inline HlcRules logical_time() { return rules_in_logical_time(true); }
@@ -64,7 +64,10 @@ class DrivenMachine {
                 policy::ReconfigurationSettings reconfiguration = {})
       : machine_({.rules = rules, .reconfiguration = std::move(reconfiguration)},
                  std::move(controller)),
-        rules_(rules) {}
+        rules_(rules),
+        step_(rules.start == StartRule::kTogether ? 0 : kFirstStep) {
+    now_.run = step_ * kPeriod;
+  }
 
   [[nodiscard]] const HlcMachine& machine() const { return machine_; }
   [[nodiscard]] const HlcRules& rules() const { return rules_; }
@@ -161,8 +164,8 @@ class DrivenMachine {
 
   HlcMachine machine_;
   HlcRules rules_;
-  Instant now_{.run = kFirstStep * kPeriod, .wall = 50 * kSecond};
-  std::uint64_t step_{kFirstStep};
+  Instant now_{.run = 0, .wall = 50 * kSecond};
+  std::uint64_t step_;
   std::vector<HlcAction> done_;
 };
 

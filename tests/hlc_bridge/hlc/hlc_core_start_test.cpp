@@ -16,8 +16,8 @@ const scenario::Scenario& red_alone() {
   return scenario;
 }
 
-/// The decisions of vehicle 1's controller in real time, list by list.
-class RealTime : public testing::Test {
+/// The decisions of vehicle 1's controller, list by list.
+class Start : public testing::Test {
  protected:
   struct Seen {
     Pose beside{};  ///< seen from where the scenario has the vehicle
@@ -30,8 +30,8 @@ class RealTime : public testing::Test {
     EXPECT_TRUE(core_.controller().has_plan());
   }
 
-  /// The list of the next step; true if the experiment begins with it or has begun.
-  bool begins(const Seen& seen, std::optional<Nanoseconds> trigger) {
+  /// The list of the next step, noted.
+  controller::Observation next_list(const Seen& seen) {
     list_.t_now += kListPeriod;
     list_.states = {
         {.vehicle_id = 1,
@@ -41,10 +41,16 @@ class RealTime : public testing::Test {
                          seen.beside),
          .speed_mps = seen.speed_mps}};
     if (!seen.is_seen) list_.states.clear();
-    const controller::Observation observation = core_.observe(list_).value();
+    controller::Observation observation = core_.observe(list_).value();
     core_.note(list_, observation);
+    return observation;
+  }
+
+  /// ... true if the experiment begins with it or has begun.
+  bool begins(const Seen& seen, std::optional<Nanoseconds> trigger) {
+    const controller::Observation observation = next_list(seen);
     const bool begins = core_.begins(list_, observation, StartRule::kAtTrigger, trigger);
-    if (!begins && core_.may_stand_by(observation)) {
+    if (!begins && core_.may_stand_by(observation, StartRule::kAtTrigger)) {
       static_cast<void>(core_.controller().stand_by(observation));
     }
     return begins;
@@ -57,6 +63,8 @@ class RealTime : public testing::Test {
                          .observations = {},
                          .active_vehicle_ids = {1}};
 };
+
+class RealTime : public Start {};
 
 TEST_F(RealTime, BeginsWithTheFirstListAfterTheTriggersTime) {
   stand_for_a_horizon();
@@ -96,6 +104,36 @@ TEST_F(RealTime, AVehicleThatFitsNoRouteDoesNotBegin) {
   EXPECT_TRUE(core_.controller().has_plan()) << "to stand";
   EXPECT_FALSE(begins({}, 1));
   EXPECT_TRUE(begins({}, 1)) << "it has been put right";
+}
+
+class LogicalTime : public Start {
+ protected:
+  void begin_with_list(std::uint64_t step) {
+    list_.t_now = step * kListPeriod + kListOffset - kListPeriod;
+  }
+  bool may_stand_by(const Seen& seen) {
+    return core_.may_stand_by(next_list(seen), StartRule::kTogether);
+  }
+};
+
+TEST_F(LogicalTime, AVehicleThatIsSeenFromTheBeginOfTimeStandsByAtOnce) {
+  begin_with_list(1);
+  EXPECT_FALSE(may_stand_by({.is_seen = false}));
+  EXPECT_TRUE(may_stand_by({})) << "nobody can have planned yet";
+}
+
+TEST_F(LogicalTime, OfARestartedControllerAVehicleIsLeftAloneUntilItHasStoodForAHorizon) {
+  begin_with_list(16);
+  EXPECT_FALSE(may_stand_by({.speed_mps = 0.1}));
+  for (int i = 0; i < 7; ++i) EXPECT_FALSE(may_stand_by({})) << "its plan may be to wait and drive";
+  EXPECT_TRUE(may_stand_by({}));
+}
+
+TEST_F(LogicalTime, ListsOfThePastInWhichTheVehicleIsNotSeenSayNothing) {
+  begin_with_list(1);
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(may_stand_by({.is_seen = false}));
+  for (int i = 0; i < 7; ++i) EXPECT_FALSE(may_stand_by({}));
+  EXPECT_TRUE(may_stand_by({}));
 }
 
 }  // namespace

@@ -107,6 +107,22 @@ TEST(HlcMachineReady, InLogicalTimeTheFirstListIsAnsweredWhenEverybodyIsThere) {
   EXPECT_EQ(alone.exit_code(), kExitMissing);
 }
 
+/// Of a restarted controller: a middleware in logical time waits for every answer.
+TEST(HlcMachineReady, InLogicalTimeAListIsAnsweredWithoutAnEffectOnAVehicleThatRolls) {
+  DrivenMachine one(logical_time());
+  one.on(peers());
+  one.pass(3 * kSecond);
+  coordination::MeasuredVehicle rolls = seen(1, 0.0, 0.0);
+  rolls.speed_mps = 0.1;
+  one.next_list({rolls});
+  const std::vector<TrajectoryCommand> answers = one.take<TrajectoryCommand>();
+  ASSERT_THAT(answers, SizeIs(1));
+  EXPECT_EQ(answers.front().create_stamp, one.step() * kPeriod + kListOffset);
+  EXPECT_THAT(answers.front().points, IsEmpty());
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kStandby);
+  EXPECT_FALSE(one.machine().controller().has_plan());
+}
+
 // --- duplicate instances -------------------------------------------------------------------------
 
 HlcPeers with_duplicate() {
