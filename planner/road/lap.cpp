@@ -17,7 +17,8 @@ double shortest(double difference_m, double length_m) {
 ReferencePath::Projection first_projection(const ReferencePath& path, const Point& position_m) {
   constexpr double kWindow_m = 0.2;
   const ReferencePath::Projection nearest = path.project(position_m);
-  for (double s_m = 0.0; s_m < nearest.s_m - kWindow_m; s_m += kWindow_m) {
+  for (int i = 0; i * kWindow_m < nearest.s_m - kWindow_m; ++i) {
+    const double s_m = i * kWindow_m;
     const ReferencePath::Projection one =
         path.project_within(position_m, s_m - kWindow_m, s_m + kWindow_m);
     if (one.distance_m < nearest.distance_m + kSameLane_m &&

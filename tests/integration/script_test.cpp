@@ -108,6 +108,22 @@ TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
   EXPECT_EQ(summary["seed"], 10);
 }
 
+TEST_F(Scripts, DrawnCarsDriveRandomRoutesAndTheDrawIsKept) {
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run = run_lab({"--scenario", "lab_cars", "--cars", "2", "--seed", "03", "--routes",
+                              "random", "--steps", "10", "--out", out.string()});
+  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  const std::string flags = read_text(out / "configuration" / "flags.yaml");
+  for (const char* line : {"cars: 2", "seed: 3", "routes: 'random'"}) {
+    EXPECT_NE(flags.find(std::string("\n") + line + "\n"), std::string::npos) << line << " in\n"
+                                                                              << flags;
+  }
+  const auto summary = nlohmann::json::parse(read_text(out / "summary.json"), nullptr, false);
+  ASSERT_TRUE(summary.is_object());
+  ASSERT_EQ(summary["vehicles"].size(), 2U);
+  EXPECT_TRUE(summary["vehicles"][0]["name"].get<std::string>().starts_with("path "));
+}
+
 /// Vertices of a report by the begin of the names of its problem files.
 std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> searched_vertices(
     const std::filesystem::path& reports) {
@@ -433,6 +449,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"TimeNotABoolean", {"--simulated_time", "maybe"}, "maybe"},
                     BadInput{"CarsWhereTheyHaveNames", {"--cars", "3"}, "--cars"},
                     BadInput{"TooManyCars", {"--scenario", "circle", "--cars", "99"}, "99"},
+                    BadInput{"SeedWhereNothingIsDrawn", {"--seed", "3"}, "--seed"},
+                    BadInput{"SeedNotANumber", {"--seed", "x"}, "seed = x"},
+                    BadInput{"RoutesUnknown", {"--routes", "some"}, "some"},
                     BadInput{"DomainTooLarge", {"--dds_domain", "233"}, "233"},
                     BadInput{"NoiseSeedNotANumber", {"--noise_seed", "abc"}, "noise_seed = abc"},
                     BadInput{"GainsNotANumber", {"--gains_scale", "abc"}, "gains_scale = abc"},

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "planner/common/random_index.hpp"
 #include "planner/road/lab_network_map.hpp"
 #include "planner/road/lap.hpp"
 #include "planner/road/placement.hpp"
@@ -92,8 +93,8 @@ TEST(RandomTour, OfRandomGraphsClosesAndPassesThroughAllThatCanBeReached) {
     std::map<LaneletId, std::vector<LaneletId>> successors;
     for (LaneletId id = 1; id <= 30; ++id) {
       std::set<LaneletId> next;
-      const std::uint64_t num = random() % 3;
-      while (next.size() < num) next.insert(static_cast<LaneletId>(random() % 30) + 1);
+      const std::size_t num = random_index(random, 3);
+      while (next.size() < num) next.insert(static_cast<LaneletId>(random_index(random, 30)) + 1);
       successors[id] = {next.begin(), next.end()};
     }
     const LaneletMap map = map_of(successors);

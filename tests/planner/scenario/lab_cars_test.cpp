@@ -131,7 +131,7 @@ TEST(LabCars, UnknownRoutesAreNamedWithTheirPlaces) {
 }
 
 TEST(LabCars, FlagsThatFitNoOtherScenarioAreRefused) {
-  const auto error = [](ScenarioChoices choices) -> std::string {
+  const auto error = [](const ScenarioChoices& choices) -> std::string {
     try {
       static_cast<void>(read_scenario(choices));
     } catch (const std::exception& thrown) {

@@ -84,6 +84,26 @@ TEST_F(Evaluate, GoesOnWhereItWasInterrupted) {
   EXPECT_EQ(timeless(results()), whole);
 }
 
+TEST_F(Evaluate, DrawsOtherCarsForEveryStartAndKeepsTheDraw) {
+  const Outcome outcome = run_program(
+      "evaluate --scenario lab_cars --cars 3 --routes random --starts 2 --steps 10 --keep_runs" +
+      kScenarios + " --out " + out_.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const nlohmann::json runs = results()["runs"];
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0]["vehicles"].size(), 3U);
+  EXPECT_NE(runs[0]["vehicles"][0]["name"], runs[1]["vehicles"][0]["name"]);
+  for (const char* seed : {"1", "2"}) {
+    const std::filesystem::path run = out_ / "runs" / (seed[0] == '1' ? "0" : "1");
+    EXPECT_THAT(text_of(run / "configuration" / "flags.yaml"),
+                HasSubstr(std::string("cars: 3\nseed: ") + seed + "\nroutes: \"random\"\n"));
+    EXPECT_EQ(run_program("export_commonroad --run " + run.string() + " --out " +
+                          (folder_ / "run.xml").string())
+                  .exit_code,
+              0);
+  }
+}
+
 TEST_F(Evaluate, RefusesAFolderThatHoldsSomethingElseAndLeavesItAlone) {
   std::filesystem::create_directory(out_);
   put(out_ / "thesis.tex", "text");
@@ -252,6 +272,8 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
                                        {"--starts 0", "--starts"},
                                        {"--starts 2.5", "--starts"},
                                        {"--seed -5", "--seed"},
+                                       {"--cars 3", "--cars"},
+                                       {"--routes some", "--routes"},
                                        {"--noise_seed 99999999999999999999999", "--noise_seed"},
                                        {"--figures path", "--figures"},
                                        {"--figures distance --scenario paper_red_alone",
