@@ -48,6 +48,7 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
             .ahead_m = std::max({held_m, plans_m, 0.0}),
             .waiting_steps = stands ? claim_.waiting_steps + 1 : 0};
   has_place_ = true;
+  withheld_by_.clear();
 }
 
 void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
@@ -56,7 +57,10 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
   for (const coordination::Traffic* other : others) {
     holders.push_back({other->vehicle, other->claim.value()});
   }
-  claim_.ahead_m = right_of_way::grant(*map_, holders, blocked_m, kLookAhead_m).front();
+  const std::vector<double> ahead_m = right_of_way::grant(*map_, holders, blocked_m, kLookAhead_m);
+  for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
+  claim_.ahead_m = ahead_m.front();
+  if (claim_.ahead_m < kOpen_m) withheld_by_ = right_of_way::withheld_by(*map_, holders, 0);
 }
 
 double Authority::end_s_m(double s_m) const {

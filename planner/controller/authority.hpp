@@ -35,6 +35,9 @@ class Authority {
   void extend(VehicleId own, std::span<const coordination::Traffic* const> others,
               std::span<const ConvexPolygon> blocked_m);
 
+  /// Vehicles that hold what would be granted next, if the end limits planning. @pre extend
+  [[nodiscard]] const std::vector<VehicleId>& withheld_by() const { return withheld_by_; }
+
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.
   [[nodiscard]] double end_s_m(double s_m) const;
   /// An area across the lane behind the end, to be kept clear of, if a plan may reach so far.
@@ -44,6 +47,7 @@ class Authority {
  private:
   std::shared_ptr<const right_of_way::ConflictMap> map_;
   coordination::LaneClaim claim_;
+  std::vector<VehicleId> withheld_by_;
   bool has_place_{};
 };
 

@@ -1,9 +1,26 @@
 // The other vehicles as a controller sees them in a step: obstacles of its plan, and those that its
 // vehicle waits for.
+#include <algorithm>
+
 #include "planner/controller/controller.hpp"
 #include "planner/controller/self_loop.hpp"
 
 namespace hlc::controller {
+namespace {
+
+/// They prevent any motion beyond the end of the authority.
+void note_withheld(const std::vector<VehicleId>& by, std::vector<OtherVehicle>& others) {
+  for (const VehicleId holder : by) {
+    const auto known = std::ranges::find(others, holder, &OtherVehicle::vehicle);
+    if (known == others.end()) {
+      others.push_back({.vehicle = holder, .areas_m = {}, .prevents_all = true});
+    } else {
+      known->prevents_all = true;
+    }
+  }
+}
+
+}  // namespace
 
 CoupledVehicle Controller::coupled_vehicle(VehicleId other) const {
   const auto respected = step_.respected.find(other);
@@ -84,6 +101,7 @@ std::vector<OtherVehicle> Controller::other_vehicles() const {
                                            : obstacles_m({}, {&missing, 1}),
                       .prevents_all = is_unseen});
   }
+  if (authority_) note_withheld(authority_->withheld_by(), others);
   return others;
 }
 

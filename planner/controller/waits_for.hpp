@@ -25,7 +25,8 @@ struct OtherVehicle {
   /// Areas that were to be kept clear of because of it, during the steps from t(k+1) on; as many
   /// as the horizon has steps.
   std::vector<std::vector<ConvexPolygon>> areas_m;
-  /// It prevents any motion: it may be anywhere, does not receive this vehicle, or voted against.
+  /// It prevents any motion: it may be anywhere, does not receive this vehicle, voted against, or
+  /// holds the next piece of this vehicle's road (authority.hpp).
   bool prevents_all{};
 };
 
@@ -49,8 +50,6 @@ struct EndedStep {
 ///    goal, or where the boundary of its lanes leaves no way, it stands but does not wait;
 /// 4. there is a vehicle that stops that motion: one whose areas meet those of the motion alone,
 ///    or that prevents any motion.
-///
-/// Another reason to wait, such as a right of way, is to be added here.
 ///
 /// @return the vehicles of 4, by the first step in which they stop the motion, then by id; empty if
 /// the vehicle does not wait

@@ -33,6 +33,25 @@ class Grants {
 
   [[nodiscard]] const std::vector<double>& ahead_m() const { return ahead_m_; }
 
+  [[nodiscard]] std::vector<VehicleId> withheld_by(std::size_t who) const {
+    const coordination::LaneClaim& claim = holders_[who].claim;
+    const CellNumber first = cell_of(claim.route, claim.place_m + ahead_m_[who]) + 1;
+    CellNumber last = first;
+    while (map_.is_conflict(claim.route, on_route(claim.route, last)) &&
+           last - first < static_cast<CellNumber>(map_.num_cells(claim.route))) {
+      ++last;
+    }
+    std::vector<VehicleId> vehicles;
+    for (std::size_t other = 0; other < holders_.size(); ++other) {
+      bool holds_any = false;
+      for (CellNumber cell = first; cell <= last && other != who; ++cell) {
+        holds_any = holds_any || is_held_by(other, claim.route, on_route(claim.route, cell));
+      }
+      if (holds_any) vehicles.push_back(holders_[other].vehicle);
+    }
+    return vehicles;
+  }
+
  private:
   [[nodiscard]] CellNumber cell_of(std::size_t route, double s_m) const {
     return std::llround(s_m / map_.cell_m(route));
@@ -56,15 +75,17 @@ class Grants {
   [[nodiscard]] bool is_free(std::size_t who, std::size_t cell) const {
     const std::size_t route = holders_[who].claim.route;
     for (std::size_t other = 0; other < holders_.size(); ++other) {
-      if (other == who) continue;
-      const auto cells = map_.overlaps(route, cell, holders_[other].claim.route);
-      if (std::ranges::any_of(cells, [&](std::size_t one) { return holds(other, one); })) {
-        return false;
-      }
+      if (other != who && is_held_by(other, route, cell)) return false;
     }
     const ConvexPolygon& area_m = map_.area_m(route, cell);
     return std::ranges::none_of(
         blocked_m_, [&](const ConvexPolygon& blocked) { return intersects(area_m, blocked); });
+  }
+
+  /// Whether the other vehicle holds a cell that overlaps this one.
+  [[nodiscard]] bool is_held_by(std::size_t other, std::size_t route, std::size_t cell) const {
+    const auto cells = map_.overlaps(route, cell, holders_[other].claim.route);
+    return std::ranges::any_of(cells, [&](std::size_t one) { return holds(other, one); });
   }
 
   [[nodiscard]] bool holds(std::size_t who, std::size_t cell) const {
@@ -98,6 +119,11 @@ std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holder
   Grants grants(map, holders, blocked_m);
   for (const std::size_t who : order) grants.extend(who, look_ahead_m);
   return grants.ahead_m();
+}
+
+std::vector<VehicleId> withheld_by(const ConflictMap& map, std::span<const Holder> holders,
+                                   std::size_t who) {
+  return Grants(map, holders, {}).withheld_by(who);
 }
 
 }  // namespace hlc::right_of_way

@@ -36,4 +36,9 @@ struct Holder {
                                         std::span<const ConvexPolygon> blocked_m,
                                         double look_ahead_m);
 
+/// The vehicles that hold cells of what would be granted next to the vehicle with this index, in
+/// the order of `holders`.
+[[nodiscard]] std::vector<VehicleId> withheld_by(const ConflictMap& map,
+                                                 std::span<const Holder> holders, std::size_t who);
+
 }  // namespace hlc::right_of_way
