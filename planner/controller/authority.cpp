@@ -52,10 +52,17 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
 }
 
 void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
-                       std::span<const ConvexPolygon> blocked_m) {
+                       std::span<const VehicleId> silent, std::span<const ConvexPolygon> blocked_m,
+                       double step_m) {
   std::vector<right_of_way::Holder> holders{{own, claim_}};
   for (const coordination::Traffic* other : others) {
-    holders.push_back({other->vehicle, other->claim.value()});
+    known_[other->vehicle] = other->claim.value();
+    holders.push_back({other->vehicle, *other->claim});
+  }
+  for (const VehicleId other : silent) {
+    coordination::LaneClaim& claim = known_.at(other);
+    claim.ahead_m = std::max(claim.ahead_m, kLookAhead_m) + step_m;
+    holders.push_back({other, claim});
   }
   const std::vector<double> ahead_m = right_of_way::grant(*map_, holders, blocked_m, kLookAhead_m);
   for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];

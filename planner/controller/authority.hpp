@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,11 +30,19 @@ class Authority {
   /// For this step's traffic. @pre begin_step
   [[nodiscard]] const coordination::LaneClaim& claim() const { return claim_; }
 
-  /// Takes what is granted to this vehicle, given what all others hold.
+  /// Whether a claim of the vehicle has ever been received.
+  [[nodiscard]] bool knows(VehicleId vehicle) const { return known_.contains(vehicle); }
+
+  /// Takes what is granted to this vehicle, given what all others hold. A silent vehicle may have
+  /// taken everything that can have been granted to it since it was heard: it holds a look-ahead,
+  /// and in each step of silence the length of a step more.
   /// @param others     of which a claim on the same map has been received in this step
+  /// @param silent     known vehicles that were not received in this step
   /// @param blocked_m  areas of others that hold nothing
+  /// @param step_m     the longest way of a vehicle in a step
   void extend(VehicleId own, std::span<const coordination::Traffic* const> others,
-              std::span<const ConvexPolygon> blocked_m);
+              std::span<const VehicleId> silent, std::span<const ConvexPolygon> blocked_m,
+              double step_m);
 
   /// Vehicles that hold what would be granted next, if the end limits planning. @pre extend
   [[nodiscard]] const std::vector<VehicleId>& withheld_by() const { return withheld_by_; }
@@ -48,6 +57,7 @@ class Authority {
   std::shared_ptr<const right_of_way::ConflictMap> map_;
   coordination::LaneClaim claim_;
   std::vector<VehicleId> withheld_by_;
+  std::map<VehicleId, coordination::LaneClaim> known_;  ///< the last of each other vehicle
   bool has_place_{};
 };
 

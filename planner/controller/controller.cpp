@@ -184,15 +184,24 @@ void Controller::couple(std::span<const coordination::Traffic> received) {
   }
 }
 
-/// Only with the messages of all: what is taken on less might be taken twice.
 void Controller::extend_authority() {
   if (!authority_) return;
+  const automaton::UniversalAutomaton& automaton = subgraph().automaton();
   std::vector<ConvexPolygon> blocked_m;
+  std::vector<VehicleId> silent;
   for (const VehicleId other : neighbours_.missing()) {
     const coordination::MeasuredVehicle* const measured = step_.observation.measured(other);
-    if (measured == nullptr || !neighbours_.stands_for_good(other, options_.horizon_steps)) return;
-    const vehicle::VehicleParameters& vehicle = subgraph().automaton().vehicle;
-    blocked_m.push_back(footprint_area(vehicle.footprint, measured->pose, vehicle.safety_margin_m));
+    if (measured != nullptr && neighbours_.stands_for_good(other, options_.horizon_steps)) {
+      blocked_m.push_back(coordination::standing_area(*measured, neighbours_.rules()));
+    } else if (authority_->knows(other)) {
+      silent.push_back(other);
+    } else if (measured != nullptr) {
+      blocked_m.push_back(coordination::reachable_disc(
+          *measured, static_cast<double>(options_.horizon_steps + 1) * automaton.step_s,
+          neighbours_.rules()));
+    } else {
+      return;  // it may be anywhere
+    }
   }
   std::vector<const coordination::Traffic*> holders;
   for (const coordination::Traffic* traffic : neighbours_.received()) {
@@ -204,7 +213,8 @@ void Controller::extend_authority() {
                      traffic->running.areas_m.end());
     blocked_m.push_back(traffic->running.final_area_m);
   }
-  authority_->extend(options_.vehicle, holders, blocked_m);
+  authority_->extend(options_.vehicle, holders, silent, blocked_m,
+                     neighbours_.rules().max_speed_mps * automaton.step_s);
 }
 
 std::optional<double> Controller::path_s_m_of(const Point& position_m) const {

@@ -25,8 +25,8 @@ struct Holder {
 /// present place, not where it is going to be.
 ///
 /// A pure function of what all vehicles announced: controllers that received the same compute the
-/// same, without a further message. It never takes a cell from a vehicle, so whoever computes with
-/// less than all (and then takes nothing for itself) contradicts nobody.
+/// same, without a further message. It never takes a cell from a vehicle, so whoever assumes that a
+/// silent vehicle holds more than it does takes less, and contradicts nobody.
 ///
 /// What this is for: no vehicle ever stops in a cell that a vehicle of another lane needs. That no
 /// state without a way on is reached is measured (tests/benchmarks/right_of_way), not proven: two
