@@ -109,6 +109,27 @@ std::vector<VehicleId> ids_from_wire(const std::vector<std::uint8_t>& wire) {
   return result;
 }
 
+LaneClaimMessage claim_to_wire(const coordination::LaneClaim& claim) {
+  const auto& [route, place_m, ahead_m, waiting_steps] = claim;
+  LaneClaimMessage result;
+  result.route(route);
+  result.place_m(place_m);
+  result.ahead_m(ahead_m);
+  result.waiting_steps(waiting_steps);
+  return result;
+}
+
+bool is_valid(const LaneClaimMessage& wire) {
+  return is_near(wire.place_m()) && is_near(wire.ahead_m());
+}
+
+coordination::LaneClaim claim_from_wire(const LaneClaimMessage& wire) {
+  return {.route = wire.route(),
+          .place_m = wire.place_m(),
+          .ahead_m = wire.ahead_m(),
+          .waiting_steps = wire.waiting_steps()};
+}
+
 // Without a default case: a new enumerator does not compile until it is known here.
 bool is_known(coordination::StepStatus status) {
   switch (status) {
@@ -178,7 +199,8 @@ bool can_be_written(const coordination::Outcome& message) { return is_valid(mess
 bool can_be_written(const ReportRecord& message) { return is_valid(message.report.vehicle); }
 
 void to_wire(const coordination::Traffic& message, TrafficMessage& wire) {
-  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent] = message;
+  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent, claim] =
+      message;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.next_pose(pose_to_wire(next_pose));
@@ -186,12 +208,15 @@ void to_wire(const coordination::Traffic& message, TrafficMessage& wire) {
   wire.running(areas_to_wire(running));
   wire.reachable_area_m(polygon_to_wire(reachable_area_m));
   wire.silent(ids_to_wire(silent));
+  wire.claims_lane(claim.has_value());
+  wire.claim(claim_to_wire(claim.value_or(coordination::LaneClaim{})));
 }
 
 Incoming<coordination::Traffic> from_wire(const TrafficMessage& wire) {
   const bool valid = is_valid(VehicleId{wire.vehicle_id()}) &&
                      is_finite(pose_from_wire(wire.next_pose())) && is_valid(wire.running()) &&
-                     is_valid(wire.reachable_area_m()) && is_valid(wire.silent());
+                     is_valid(wire.reachable_area_m()) && is_valid(wire.silent()) &&
+                     (!wire.claims_lane() || is_valid(wire.claim()));
   if (!valid) {
     return {std::nullopt, 1};
   }
@@ -201,7 +226,10 @@ Incoming<coordination::Traffic> from_wire(const TrafficMessage& wire) {
                                 .next_trim = {wire.next_trim()},
                                 .running = areas_from_wire(wire.running()),
                                 .reachable_area_m = polygon_from_wire(wire.reachable_area_m()),
-                                .silent = ids_from_wire(wire.silent())},
+                                .silent = ids_from_wire(wire.silent()),
+                                .claim = wire.claims_lane()
+                                             ? std::optional{claim_from_wire(wire.claim())}
+                                             : std::nullopt},
           0};
 }
 

@@ -123,6 +123,32 @@ TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
   }
 }
 
+TEST(OwnConversionRefuses, LaneClaimsWithoutPlace) {
+  auto traffic = good<coordination::Traffic>();
+  traffic.claim = coordination::LaneClaim{.route = 2, .place_m = 1.5, .ahead_m = 0.8};
+  EXPECT_FALSE(is_refused(traffic));
+  for (const double bad : {kNan, std::numeric_limits<double>::infinity(), 1.001e9}) {
+    traffic.claim->place_m = bad;
+    EXPECT_TRUE(is_refused(traffic));
+    traffic.claim->place_m = 1.5;
+    traffic.claim->ahead_m = bad;
+    EXPECT_TRUE(is_refused(traffic));
+    traffic.claim->ahead_m = 0.8;
+  }
+}
+
+// Whatever a sender without right of way leaves there.
+TEST(OwnConversion, IgnoresTheClaimOfATrafficMessageWithoutClaim) {
+  auto traffic = good<coordination::Traffic>();
+  traffic.claim = coordination::LaneClaim{.route = 2, .place_m = kNan, .ahead_m = 0.8};
+  TrafficMessage wire;
+  to_wire(traffic, wire);
+  wire.claims_lane(false);
+  const auto read = from_wire(wire).message;
+  ASSERT_TRUE(read.has_value());
+  EXPECT_FALSE(read->claim.has_value());
+}
+
 TEST(OwnConversionRefuses, NumbersThatAreNotFinite) {
   auto traffic = good<coordination::Traffic>();
   traffic.next_pose.heading_rad = kNan;

@@ -124,9 +124,13 @@ void put_message(std::ostream& out, const Visualization& value) {
   const auto& [a, b, c, d, e, f, g, h] = value;
   put_all(out, a, b, c, d, e, f, g, h);
 }
+void put_message(std::ostream& out, const coordination::LaneClaim& value) {
+  const auto& [a, b, c, d] = value;
+  put_all(out, a, b, c, d);
+}
 void put_message(std::ostream& out, const coordination::Traffic& value) {
-  const auto& [a, b, c, d, e, f, g] = value;
-  put_all(out, a, b, c, d, e, f, g);
+  const auto& [a, b, c, d, e, f, g, h] = value;
+  put_all(out, a, b, c, d, e, f, g, h.has_value(), h.value_or(coordination::LaneClaim{}));
 }
 void put_message(std::ostream& out, const coordination::Prediction& value) {
   const auto& [a, b, c, d] = value;
@@ -427,9 +431,14 @@ Visualization sample(Random& random) {
 
 template <>
 coordination::Traffic sample(Random& random) {
-  return {vehicle(random),         {random()},    pose(random),
-          {whole(random, 100)},    areas(random), polygon(random),
-          list(random, 5, vehicle)};
+  coordination::Traffic traffic{vehicle(random),         {random()},    pose(random),
+                                {whole(random, 100)},    areas(random), polygon(random),
+                                list(random, 5, vehicle)};
+  if (coin(random)) {
+    traffic.claim = {static_cast<std::uint32_t>(random()), number(random), number(random),
+                     static_cast<std::uint32_t>(random())};
+  }
+  return traffic;
 }
 
 template <>
