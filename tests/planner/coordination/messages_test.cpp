@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "planner/geometry/footprint.hpp"
 
 namespace hlc::coordination {
@@ -35,6 +37,25 @@ TEST(Messages, AnEmptyAreaOrAWrongBeginIsNotWellFormed) {
   EXPECT_FALSE(is_well_formed(late)) << "a prediction begins at the next step";
   late.areas.first = {6};
   EXPECT_TRUE(is_well_formed(late));
+}
+
+TEST(Messages, AClaimThatIsNoPlaceIsNotWellFormed) {
+  Traffic traffic;
+  traffic.running.final_area_m = square_here(0.0);
+  traffic.reachable_area_m = square_here(0.0);
+  const auto is_good = [&](double place_m, double ahead_m) {
+    traffic.claim = LaneClaim{.place_m = place_m, .ahead_m = ahead_m};
+    return is_well_formed(traffic);
+  };
+  EXPECT_TRUE(is_well_formed(traffic)) << "no claim: no right of way";
+  EXPECT_TRUE(is_good(0.0, 0.0));
+  EXPECT_TRUE(is_good(12.5, 1.6));
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), -1e-9, -kInfinite, kInfinite,
+                           2.0 * kLargestCoordinate_m}) {
+    EXPECT_FALSE(is_good(bad, 1.6)) << bad;
+    EXPECT_FALSE(is_good(12.5, bad)) << bad;
+  }
 }
 
 }  // namespace

@@ -5,9 +5,12 @@
 
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "planner/geometry/footprint.hpp"
 #include "planner/scenario/engine_choice.hpp"
+#include "planner/scenario/starts.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -19,12 +22,19 @@ const std::string kFolder = test::source_folder() + "/launch_scripts/";
 /// Writes a scenario that is valid except for `change`, and returns the error of reading it.
 class ScenarioErrors : public testing::Test {
  protected:
+  using Changes = std::vector<std::pair<std::string, std::string>>;
+
   std::string error_of(const std::string& from, const std::string& to) {
+    return error_of({{from, to}});
+  }
+  std::string error_of(const Changes& changes) {
     std::ifstream good(kFolder + "scenarios/paper_three_cars.yaml");
     std::string text((std::istreambuf_iterator<char>(good)), {});
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    text.replace(at, from.size(), to);
+    for (const auto& [from, to] : changes) {
+      const std::size_t at = text.find(from);
+      EXPECT_NE(at, std::string::npos) << from;
+      text.replace(at, from.size(), to);
+    }
     for (std::size_t place = 0; (place = text.find("../", place)) != std::string::npos;) {
       text.replace(place, 3, kFolder);
     }
@@ -65,6 +75,17 @@ TEST_F(ScenarioErrors, AContouringWeightIsNotNegative) {
   EXPECT_EQ(error_of("horizon_steps: 8", "contouring_weight: 150"), "");
   EXPECT_THAT(error_of("horizon_steps: 8", "contouring_weight: -1"),
               HasSubstr(".yaml:7: contouring_weight = -1, must be a number >= 0 and <= 10000"));
+}
+
+TEST_F(ScenarioErrors, RightOfWayIsOfClosedRoutesOnly) {
+  const std::pair<std::string, std::string> open_route{"closed: true", "closed: false"};
+  EXPECT_EQ(error_of("horizon_steps: 8", "right_of_way: true"), "");
+  EXPECT_THAT(error_of("horizon_steps: 8", "right_of_way: maybe"),
+              HasSubstr(".yaml:7: right_of_way = maybe, must be"));
+  EXPECT_THAT(error_of({{"horizon_steps: 8", "right_of_way: true"}, open_route}),
+              HasSubstr("scenario.yaml:7: right_of_way = true, must be false: an open route is "
+                        "not supported"));
+  EXPECT_EQ(error_of({{"horizon_steps: 8", "right_of_way: false"}, open_route}), "");
 }
 
 TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {
@@ -183,6 +204,48 @@ ScenarioChoices three_cars(const std::string& profile, std::optional<std::string
   return {.file = kFolder + "scenarios/paper_three_cars.yaml",
           .profile = profile,
           .engine = std::move(engine)};
+}
+
+/// That every vehicle's route is in the scenario's conflict map, by its number.
+void expect_related(const Scenario& scenario) {
+  ASSERT_NE(scenario.conflicts, nullptr);
+  const right_of_way::ConflictMap& map = *scenario.conflicts;
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    ASSERT_LT(vehicle.route_number, map.num_routes());
+    EXPECT_EQ(map.length_m(vehicle.route_number), vehicle.path.length_m());
+    for (std::size_t cell = 0; cell < map.num_cells(vehicle.route_number); cell += 10) {
+      const double s_m = map.cell_m(vehicle.route_number) * static_cast<double>(cell);
+      EXPECT_TRUE(contains(map.area_m(vehicle.route_number, cell),
+                           vehicle.driving_line.at(vehicle.path, s_m)))
+          << vehicle.name << ' ' << s_m;
+    }
+    const auto controller = make_controller(scenario, vehicle.id);
+    EXPECT_EQ(controller->options().conflicts, scenario.conflicts);
+    EXPECT_EQ(controller->route().number, vehicle.route_number);
+  }
+  for (const road::DrivableRoute& route : scenario.routes) {
+    EXPECT_EQ(map.length_m(route.number), route.path.length_m());
+  }
+}
+
+TEST(ScenarioRightOfWay, EveryRouteIsInTheConflictMapAlsoWhenTheVehiclesAreDrawnAgain) {
+  const Scenario scenario = read_scenario({.file = kFolder + "scenarios/lab_cars.yaml", .cars = 5});
+  expect_related(scenario);
+  // Seven loops, and the routes of five cars that begin elsewhere.
+  EXPECT_LE(scenario.conflicts->num_routes(), 12U);
+  for (std::uint64_t seed = 2; seed < 5; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scenario drawn = with_random_starts(scenario, seed);
+    EXPECT_NE(drawn.conflicts, scenario.conflicts);
+    expect_related(drawn);
+  }
+  expect_related(scenario);
+}
+
+TEST(ScenarioRightOfWay, ThereIsNoneUnlessTheScenarioSaysSo) {
+  const Scenario scenario = read_scenario({.file = kFolder + "scenarios/paper_three_cars.yaml"});
+  EXPECT_EQ(scenario.conflicts, nullptr);
+  EXPECT_EQ(make_controller(scenario, {1})->options().conflicts, nullptr);
 }
 
 TEST(ScenarioSearch, TheProfileSaysWhatSearchesUnlessTheCommandLineDoes) {

@@ -1,0 +1,326 @@
+#include "planner/controller/authority.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "planner/controller/followed_plan.hpp"
+#include "planner/controller/joint_step.hpp"
+#include "planner/right_of_way/grant.hpp"
+#include "planner/scenario/starts.hpp"
+#include "tests/planner/automaton/paper_automaton.hpp"
+#include "tests/planner/right_of_way/routes.hpp"
+#include "tests/support/num_seeds.hpp"
+
+namespace hlc::controller::authority_test {
+namespace {
+
+using coordination::LaneClaim;
+using coordination::Traffic;
+
+constexpr double kLookAhead_m = 1.6;
+constexpr double kReach_m = 2.0;
+
+const vehicle::VehicleParameters& car() { return automaton::paper_automaton()->vehicle; }
+
+/// A ring of 12.6 m and what vehicles on it plan.
+class Ring {
+ public:
+  Ring() { tracker.select_route(pose_on(0.0), car().footprint); }
+
+  [[nodiscard]] const road::ReferencePath& path() const { return tracker.route().path; }
+  [[nodiscard]] Pose pose_on(double s_m) const {
+    const Point point_m = path().at(s_m);
+    return {point_m.x(), point_m.y(), path().heading_rad_at(s_m)};
+  }
+  [[nodiscard]] static const automaton::Maneuver& edge(std::size_t from, std::size_t to) {
+    return *automaton::paper_automaton()->find({from}, {to}, from == to ? "trim" : "J2");
+  }
+  /// Standing at arc length s from step 1 on.
+  [[nodiscard]] coordination::Plan standing(double s_m) const {
+    return {{1}, pose_on(s_m), edge(0, 0)};
+  }
+  /// Standing there until step 3, then driving 0.32 m until step 6.
+  [[nodiscard]] coordination::Plan driving(double s_m) const {
+    return standing(s_m).continued({3}, {&edge(0, 6), &edge(6, 6), &edge(6, 0)});
+  }
+  [[nodiscard]] static Traffic other_at(std::uint8_t vehicle, double s_m, double ahead_m = 0.0) {
+    return {.vehicle = {vehicle}, .claim = LaneClaim{.place_m = s_m, .ahead_m = ahead_m}};
+  }
+
+  RouteTracker tracker{std::make_shared<const std::vector<road::DrivableRoute>>(
+      1, right_of_way::circle({0.0, 0.0}, 2.0))};
+  std::shared_ptr<const right_of_way::ConflictMap> map{
+      std::make_shared<const right_of_way::ConflictMap>(tracker.routes(), car())};
+};
+
+class AuthorityTest : public testing::Test {
+ protected:
+  void begin_step(const coordination::Plan& plan, std::uint64_t step) {
+    authority_.begin_step(plan, {step}, ring_.tracker, kReach_m);
+  }
+  void extend(const std::vector<Traffic>& others) {
+    std::vector<const Traffic*> pointers;
+    for (const Traffic& other : others) pointers.push_back(&other);
+    authority_.extend({1}, pointers, {});
+  }
+  [[nodiscard]] double end_m() const {
+    return authority_.claim().place_m + authority_.claim().ahead_m;
+  }
+
+  Ring ring_;
+  Authority authority_{ring_.map};
+};
+
+TEST_F(AuthorityTest, AVehicleThatStandsHoldsItsPlaceOnly) {
+  begin_step(ring_.standing(1.0), 1);
+  EXPECT_NEAR(authority_.claim().place_m, 1.0, 1e-9);
+  EXPECT_EQ(authority_.claim().ahead_m, 0.0);
+  EXPECT_EQ(authority_.claim().waiting_steps, 0U);
+}
+
+TEST_F(AuthorityTest, TheEndIsNeverInFrontOfThePlansEnd) {
+  const coordination::Plan plan = ring_.driving(0.3);
+  for (std::uint64_t step = 1; step <= 8; ++step) {
+    begin_step(plan, step);
+    EXPECT_NEAR(end_m(), 0.3 + 0.32, 0.01) << step;
+    EXPECT_GE(authority_.claim().ahead_m, 0.0) << step;
+  }
+}
+
+TEST_F(AuthorityTest, TheEndOfThePlanCountsAlsoBeyondTheEndOfTheRoute) {
+  const double length_m = ring_.path().length_m();
+  ring_.tracker.select_route(ring_.pose_on(length_m - 0.1), car().footprint);
+  const coordination::Plan plan = ring_.driving(length_m - 0.1);
+  begin_step(plan, 1);
+  EXPECT_NEAR(authority_.claim().ahead_m, 0.32, 0.01);
+  begin_step(plan, 5);  // the place has passed the end
+  EXPECT_LT(authority_.claim().place_m, 0.2);
+  EXPECT_NEAR(end_m(), 0.22, 0.01);
+}
+
+TEST_F(AuthorityTest, WhatWasGrantedIsKeptWhileTheVehicleMoves) {
+  const coordination::Plan plan = ring_.driving(0.3);
+  begin_step(plan, 1);
+  extend({});
+  const double granted_m = end_m();
+  EXPECT_NEAR(granted_m, 0.3 + kLookAhead_m, ring_.map->cell_m(0));
+  for (std::uint64_t step = 2; step <= 8; ++step) {
+    begin_step(plan, step);
+    EXPECT_NEAR(end_m(), granted_m, 1e-9) << step;
+    EXPECT_NEAR(authority_.end_s_m(authority_.claim().place_m + 0.1), granted_m, 1e-9) << step;
+  }
+}
+
+TEST_F(AuthorityTest, StepsOfStandingAreCountedAndStartAgainWhenTheVehicleHasMoved) {
+  const coordination::Plan plan = ring_.driving(0.3);
+  std::vector<std::uint32_t> waiting_steps;
+  for (std::uint64_t step = 1; step <= 9; ++step) {
+    begin_step(plan, step);
+    waiting_steps.push_back(authority_.claim().waiting_steps);
+  }
+  EXPECT_EQ(waiting_steps, (std::vector<std::uint32_t>{0, 1, 2, 0, 0, 0, 1, 2, 3}));
+}
+
+TEST_F(AuthorityTest, ItEndsBehindTheVehicleAhead) {
+  begin_step(ring_.standing(1.0), 1);
+  extend({Ring::other_at(2, 2.0, 0.5)});
+  EXPECT_LT(end_m(), 2.0 - car().footprint.length_m);
+  EXPECT_GT(end_m(), 2.0 - car().footprint.length_m - 0.1);
+  begin_step(ring_.standing(1.0), 2);
+  extend({Ring::other_at(2, 2.3, 0.5)});
+  EXPECT_GT(end_m(), 2.3 - car().footprint.length_m - 0.1) << "that one has driven on";
+}
+
+TEST_F(AuthorityTest, TheEndIsNeverBeforeAPlaceOfTheVehicle) {
+  begin_step(ring_.standing(1.0), 1);
+  extend({Ring::other_at(2, 1.6)});
+  EXPECT_DOUBLE_EQ(authority_.end_s_m(1.0), end_m());
+  EXPECT_DOUBLE_EQ(authority_.end_s_m(2.0), 2.0);
+  const double length_m = ring_.path().length_m();
+  EXPECT_NEAR(authority_.end_s_m(1.0 + length_m), end_m() + length_m, 1e-9) << "a lap later";
+}
+
+TEST_F(AuthorityTest, TheBarLiesBehindTheEndAcrossTheLane) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(100); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    const double place_m = std::uniform_real_distribution(0.0, 1.5)(random);
+    const double gap_m = std::uniform_real_distribution(0.4, 1.5)(random);
+    authority_ = Authority(ring_.map);
+    begin_step(ring_.standing(place_m), 1);
+    extend({Ring::other_at(2, place_m + gap_m)});
+    const auto bar_m = authority_.bar_m(ring_.tracker, car().footprint);
+    ASSERT_TRUE(bar_m.has_value());
+    const auto at_end = [&](double beyond_m) {
+      return footprint_area(car().footprint, ring_.pose_on(end_m() + beyond_m));
+    };
+    EXPECT_FALSE(intersects(*bar_m, at_end(0.0))) << "it may stop at the end";
+    EXPECT_GT(distance_m(*bar_m, at_end(0.0)), 0.01);
+    EXPECT_TRUE(intersects(*bar_m, at_end(0.05)));
+    const Box box = bounding_box(*bar_m);
+    EXPECT_GT((box.max_m - box.min_m).norm(), car().footprint.width_m + 0.02);
+  }
+}
+
+TEST_F(AuthorityTest, ThereIsNoBarWhereNoPlanMayReachIt) {
+  begin_step(ring_.standing(1.0), 1);
+  extend({});
+  EXPECT_FALSE(authority_.bar_m(ring_.tracker, car().footprint).has_value());
+}
+
+/// The controller of vehicle 1 on the ring; vehicle 2 stands on it, far ahead.
+class ControllerWithAuthority : public testing::Test {
+ protected:
+  enum class Other { kReceived, kSilent, kGone };
+  static constexpr double kOther_m = 6.0;
+
+  void SetUp() override {
+    static_cast<void>(one_.stand_by(
+        {.step = {step_},
+         .active = {{1}},
+         .states = {as_measured({1}, {.pose = ring_.pose_on(0.0)}, *automaton::paper_automaton())},
+         .present = {}}));
+  }
+
+  /// One step. Returns what is claimed in it: the result of the step before.
+  LaneClaim step(Other other) {
+    ++step_;
+    Observation observation{.step = {step_}, .active = {{1}, {2}}};
+    observation.states = {
+        on_its_plan(one_, {step_}),
+        as_measured({2}, {.pose = ring_.pose_on(kOther_m)}, *automaton::paper_automaton())};
+    observation.present = {{1}};
+    if (other != Other::kGone) observation.present.push_back({2});
+    const Traffic own = one_.observe(observation);
+    Traffic traffic = Ring::other_at(2, kOther_m);
+    traffic.step = {step_};
+    traffic.next_pose = ring_.pose_on(kOther_m);
+    traffic.reachable_area_m = footprint_area(car().footprint, traffic.next_pose, 0.010);
+    traffic.running = {.first = {step_}, .areas_m = {}, .final_area_m = traffic.reachable_area_m};
+    one_.couple(other == Other::kReceived ? std::vector{traffic} : std::vector<Traffic>{});
+    static_cast<void>(one_.plan({}));
+    static_cast<void>(one_.commit({}, {}));
+    return own.claim.value();
+  }
+  static double end_m(const LaneClaim& claim) { return claim.place_m + claim.ahead_m; }
+
+  Ring ring_;
+  std::uint64_t step_{100};
+  Controller one_{
+      ControllerOptions{.vehicle = {1}, .conflicts = ring_.map},
+      std::make_shared<const automaton::Subgraph>(
+          automaton::paper_automaton(), automaton::paper_configuration().subgraphs.front()),
+      ring_.tracker.routes()};
+};
+
+TEST_F(ControllerWithAuthority, NothingIsTakenWhileAVehicleIsMissing) {
+  for (int i = 0; i < 3; ++i) static_cast<void>(step(Other::kReceived));
+  LaneClaim claim = step(Other::kSilent);  // as of the step before, when all were received
+  const double end = end_m(claim);
+  EXPECT_GT(end, kLookAhead_m);
+  for (int i = 0; i < 30; ++i) {
+    claim = step(Other::kSilent);
+    ASSERT_NEAR(end_m(claim), end, 1e-6) << i;
+  }
+  EXPECT_LT(claim.ahead_m, 0.15) << "it has driven to the end";
+  EXPECT_GT(claim.waiting_steps, 5U);
+  static_cast<void>(step(Other::kReceived));
+  EXPECT_GT(end_m(step(Other::kReceived)), end + 1.0);
+}
+
+TEST_F(ControllerWithAuthority, AMissingVehicleThatStandsForGoodIsBlockedArea) {
+  static_cast<void>(step(Other::kReceived));
+  const double end = end_m(step(Other::kGone));
+  LaneClaim claim = step(Other::kGone);
+  EXPECT_NEAR(end_m(claim), end, 1e-6) << "not yet";
+  double farthest_m = 0.0;
+  for (int i = 0; i < 90; ++i) {
+    claim = step(Other::kGone);
+    farthest_m = std::max(farthest_m, end_m(claim));
+  }
+  EXPECT_LT(farthest_m, kOther_m - car().footprint.length_m);
+  EXPECT_GT(farthest_m, kOther_m - car().footprint.length_m - 0.15);
+  EXPECT_GT(claim.waiting_steps, 5U);
+}
+
+/// Steps cars of the lab, and grants beside them.
+class GrantedRun {
+ public:
+  explicit GrantedRun(const scenario::Scenario& scenario) : map_(*scenario.conflicts) {
+    for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
+      controllers_.push_back(scenario::make_controller(scenario, vehicle.id));
+      static_cast<void>(controllers_.back()->stand_by(
+          {.step = {0},
+           .active = {vehicle.id},
+           .states = {as_measured(vehicle.id, {.pose = vehicle.start},
+                                  controllers_.back()->subgraph().automaton())},
+           .present = {}}));
+    }
+  }
+
+  void step(std::uint64_t step) {
+    Observation observation{.step = {step}};
+    std::vector<Controller*> controllers;
+    for (const auto& one : controllers_) {
+      controllers.push_back(one.get());
+      observation.active.push_back(one->options().vehicle);
+      observation.states.push_back(on_its_plan(*one, {step}));
+    }
+    observation.present = observation.active;
+    std::vector<right_of_way::Holder> holders;
+    static_cast<void>(joint_step(controllers, observation,
+                                 {.on_traffic = [&](const Controller&, const Traffic& traffic) {
+                                   holders.push_back({traffic.vehicle, traffic.claim.value()});
+                                 }}));
+    const std::vector<double> ahead_m = right_of_way::grant(map_, holders, {}, kLookAhead_m);
+    for (std::size_t i = 0; i < holders.size(); ++i) check(i, holders[i].claim, ahead_m[i]);
+  }
+
+  [[nodiscard]] double driven_m() const { return driven_m_; }
+  [[nodiscard]] std::size_t limited_plans() const { return limited_plans_; }
+
+ private:
+  void check(std::size_t i, const LaneClaim& claim, double ahead_m) {
+    const coordination::Plan& plan = controllers_[i]->plan_in_force();
+    const road::ReferencePath& path = controllers_[i]->route().path;
+    const Point end_m = plan.pose_at(plan.end()).position_m();
+    const double plans_m =
+        path.project_within(end_m, claim.place_m - 0.2, claim.place_m + 3.0).s_m - claim.place_m;
+    const double ends_m = std::remainder(plans_m, path.length_m());
+    // The bar lies 20 mm behind a car that stands at the end.
+    EXPECT_LT(ends_m, ahead_m + 0.03) << "vehicle " << i + 1;
+    limited_plans_ += ends_m > ahead_m - 0.1 ? 1U : 0U;
+    if (const auto last = last_m_.find(i); last != last_m_.end()) {
+      driven_m_ += std::max(0.0, std::remainder(claim.place_m - last->second, path.length_m()));
+    }
+    last_m_[i] = claim.place_m;
+  }
+
+  const right_of_way::ConflictMap& map_;
+  std::vector<std::unique_ptr<Controller>> controllers_;
+  std::map<std::size_t, double> last_m_;
+  double driven_m_{};
+  std::size_t limited_plans_{};
+};
+
+TEST(AuthorityInTheLab, NoPlanInForceEndsBeyondTheAuthority) {
+  const scenario::Scenario few = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 8});
+  std::size_t limited_plans = 0;
+  for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(2); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const scenario::Scenario drawn = scenario::with_random_starts(few, seed);
+    GrantedRun run(drawn);
+    for (std::uint64_t step = 1; step <= 60; ++step) run.step(step);
+    EXPECT_GT(run.driven_m(), 8 * 3.0);
+    limited_plans += run.limited_plans();
+  }
+  EXPECT_GT(limited_plans, 20U) << "no authority ever limited a plan";
+}
+
+}  // namespace
+}  // namespace hlc::controller::authority_test

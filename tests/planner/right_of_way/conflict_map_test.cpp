@@ -1,0 +1,226 @@
+#include "planner/right_of_way/conflict_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/planner/right_of_way/routes.hpp"
+#include "tests/support/num_seeds.hpp"
+
+namespace hlc::right_of_way {
+namespace {
+
+std::size_t num_conflicts(const ConflictMap& map, std::size_t route) {
+  std::size_t count = 0;
+  for (std::size_t cell = 0; cell < map.num_cells(route); ++cell) {
+    count += map.is_conflict(route, cell) ? 1U : 0U;
+  }
+  return count;
+}
+
+bool overlap_at_all(const ConflictMap& map, std::size_t route, std::size_t other) {
+  for (std::size_t cell = 0; cell < map.num_cells(route); ++cell) {
+    if (!map.overlaps(route, cell, other).empty()) return true;
+  }
+  return false;
+}
+
+double cell_s_m(const ConflictMap& map, std::size_t route, std::size_t cell) {
+  return map.cell_m(route) * static_cast<double>(cell);
+}
+
+/// Along the closed route.
+double apart_m(const ConflictMap& map, std::size_t route, double a_m, double b_m) {
+  return std::abs(std::remainder(a_m - b_m, map.length_m(route)));
+}
+
+/// Of the cell to the nearest of these places on its route.
+double nearest_m(const ConflictMap& map, std::size_t route, std::size_t cell,
+                 const std::vector<double>& places_m) {
+  double nearest_m = map.length_m(route);
+  for (const double place_m : places_m) {
+    nearest_m = std::min(nearest_m, apart_m(map, route, cell_s_m(map, route, cell), place_m));
+  }
+  return nearest_m;
+}
+
+void expect_symmetric(const ConflictMap& map) {
+  for (std::size_t a = 0; a < map.num_routes(); ++a) {
+    for (std::size_t b = 0; b < map.num_routes(); ++b) {
+      for (std::size_t i = 0; i < map.num_cells(a); ++i) {
+        EXPECT_TRUE(std::ranges::is_sorted(map.overlaps(a, i, b)));
+        for (const std::size_t j : map.overlaps(a, i, b)) {
+          const auto back = map.overlaps(b, j, a);
+          EXPECT_TRUE(std::ranges::binary_search(back, i)) << a << ' ' << i << ' ' << b << ' ' << j;
+        }
+      }
+    }
+  }
+}
+
+std::vector<road::DrivableRoute> crossing_circles() {
+  return {circle({0.0, 0.0}, 1.0), circle({1.2, 0.0}, 1.0)};
+}
+
+TEST(ConflictMap, CellsAreOfEqualLengthAndAboutThatOfTheRules) {
+  const ConflictMap map(crossing_circles(), kCar);
+  ASSERT_EQ(map.num_routes(), 2U);
+  EXPECT_NEAR(map.length_m(0), 2.0 * std::numbers::pi, 1e-3);
+  EXPECT_EQ(map.num_cells(0), 157U);
+  EXPECT_DOUBLE_EQ(map.cell_m(0) * 157.0, map.length_m(0));
+}
+
+TEST(ConflictMap, ACellsAreaCoversACarThereWithTheRoomToEachSide) {
+  const road::DrivableRoute route = circle({0.0, 0.0}, 1.0);
+  const ConflictMap map({&route, 1}, kCar);
+  for (std::size_t cell = 0; cell < map.num_cells(0); ++cell) {
+    const double angle_rad = cell_s_m(map, 0, cell) / map.length_m(0) * 2.0 * std::numbers::pi;
+    // Turned into the curve by the slip, 0.045 m * 1 / m.
+    const Pose pose{std::cos(angle_rad), std::sin(angle_rad),
+                    angle_rad + std::numbers::pi / 2.0 - 0.045};
+    EXPECT_TRUE(contains(map.area_m(0, cell), footprint_area(kCar.footprint, pose, 0.009)));
+    EXPECT_FALSE(contains(map.area_m(0, cell), footprint_area(kCar.footprint, pose, 0.013)));
+  }
+}
+
+TEST(ConflictMap, OverlapsAreSymmetric) {
+  expect_symmetric(ConflictMap(crossing_circles(), kCar));
+  expect_symmetric(ConflictMap({{figure_eight(), circle({1.0, 0.0}, 0.8, -1.0)}}, kCar));
+  expect_symmetric(*lab_cars().conflicts);
+}
+
+TEST(ConflictMap, TwoCellsOverlapIfTheirAreasDo) {
+  const ConflictMap& map = *lab_cars().conflicts;
+  for (std::uint64_t seed = 0; seed < test::num_seeds(100000); ++seed) {
+    std::mt19937_64 random(seed);
+    const std::size_t a = random() % map.num_routes();
+    const std::size_t b = random() % map.num_routes();
+    const std::size_t i = random() % map.num_cells(a);
+    const std::size_t j = random() % map.num_cells(b);
+    EXPECT_EQ(std::ranges::binary_search(map.overlaps(a, i, b), j),
+              intersects(map.area_m(a, i), map.area_m(b, j)))
+        << "seed " << seed;
+  }
+}
+
+void expect_apart(const std::vector<road::DrivableRoute>& routes) {
+  const ConflictMap map(routes, kCar);
+  EXPECT_FALSE(overlap_at_all(map, 0, 1));
+  EXPECT_EQ(num_conflicts(map, 0) + num_conflicts(map, 1), 0U);
+}
+
+TEST(ConflictMap, LanesALanesWidthApartDoNotOverlap) {
+  for (const double turns : {1.0, -1.0}) {
+    for (std::uint64_t seed = 0; seed < test::num_seeds(10); ++seed) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed);
+      std::mt19937_64 random(seed);
+      const double radius_m = std::uniform_real_distribution(1.2, 2.0)(random);
+      const road::DrivableRoute ring = circle({0.0, 0.0}, radius_m);
+      expect_apart({ring, circle({0.0, 0.0}, radius_m + kLane_m, turns)});
+      expect_apart({ring, circle({2.0 * radius_m + kLane_m, 0.0}, radius_m, turns)});
+      const ConflictMap too_near({{ring, circle({0.0, 0.0}, radius_m + 0.8 * kLane_m, turns)}},
+                                 kCar);
+      EXPECT_TRUE(overlap_at_all(too_near, 0, 1));
+    }
+  }
+}
+
+TEST(ConflictMap, OnTheirDrivingLinesLanesInNarrowCurvesDoNotOverlapEither) {
+  for (const double turns : {1.0, -1.0}) {
+    for (std::uint64_t seed = 0; seed < test::num_seeds(10); ++seed) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed);
+      std::mt19937_64 random(seed);
+      const double radius_m = std::uniform_real_distribution(0.35, 0.5)(random);
+      std::vector<road::DrivableRoute> routes{circle({0.0, 0.0}, radius_m),
+                                              circle({0.0, 0.0}, radius_m + kLane_m, turns)};
+      EXPECT_TRUE(overlap_at_all(ConflictMap(routes, kCar), 0, 1));
+      const std::vector<road::DrivingLine> lines =
+          road::driving_lines({{routes[0].path, routes[1].path}}, kLane_m, kCar.footprint);
+      for (std::size_t i = 0; i < 2; ++i) routes[i].driving_line = lines[i];
+      expect_apart(routes);
+    }
+  }
+}
+
+TEST(ConflictMap, ARouteOverlapsItselfBesideTheCellOnly) {
+  const road::DrivableRoute route = circle({0.0, 0.0}, 1.0);
+  const ConflictMap map({&route, 1}, kCar);
+  EXPECT_EQ(num_conflicts(map, 0), 0U);
+  for (std::size_t i = 0; i < map.num_cells(0); ++i) {
+    for (const std::size_t j : map.overlaps(0, i, 0)) {
+      EXPECT_LT(apart_m(map, 0, cell_s_m(map, 0, i), cell_s_m(map, 0, j)), 0.3);
+    }
+  }
+}
+
+TEST(ConflictMap, WhereRoutesCrossThereAreConflictCellsAroundTheCrossings) {
+  const std::vector<road::DrivableRoute> routes = crossing_circles();
+  const ConflictMap map(routes, kCar);
+  for (std::size_t route = 0; route < 2; ++route) {
+    const std::vector<double> crossings_m{routes[route].path.project({0.6, 0.8}).s_m,
+                                          routes[route].path.project({0.6, -0.8}).s_m};
+    for (std::size_t cell = 0; cell < map.num_cells(route); ++cell) {
+      // At 74 degrees, half the car's length and 1.3 times half its width: 0.21 m.
+      const double distance_m = nearest_m(map, route, cell, crossings_m);
+      if (distance_m < 0.18) {
+        EXPECT_TRUE(map.is_conflict(route, cell)) << cell;
+      }
+      if (distance_m > 0.25) {
+        EXPECT_FALSE(map.is_conflict(route, cell)) << cell;
+      }
+      EXPECT_EQ(map.is_conflict(route, cell), !map.overlaps(route, cell, 1 - route).empty());
+    }
+  }
+}
+
+TEST(ConflictMap, ARouteThatCrossesItselfIsInConflictThere) {
+  const road::DrivableRoute route = figure_eight();
+  const ConflictMap map({&route, 1}, kCar);
+  const std::vector<double> crossings_m{0.0, map.length_m(0) / 2.0};
+  for (std::size_t cell = 0; cell < map.num_cells(0); ++cell) {
+    const double distance_m = nearest_m(map, 0, cell, crossings_m);
+    if (distance_m < 0.16) {
+      EXPECT_TRUE(map.is_conflict(0, cell)) << cell;
+    }
+    if (distance_m > 0.25) {
+      EXPECT_FALSE(map.is_conflict(0, cell)) << cell;
+    }
+  }
+}
+
+TEST(ConflictMap, AlongASharedLaneThereAreNoConflictsButWhereTheRoutesMergeAndPart) {
+  const std::vector<road::DrivableRoute> routes{loop_beside_lane(1.0), loop_beside_lane(-1.0)};
+  const ConflictMap map(routes, kCar);
+  for (std::size_t route = 0; route < 2; ++route) {
+    bool is_any_before_merging = false;
+    bool is_any_after_parting = false;
+    for (std::size_t cell = 0; cell < map.num_cells(route); ++cell) {
+      const double s_m = cell_s_m(map, route, cell);
+      if (s_m < 2.0) {  // the shared lane
+        EXPECT_FALSE(map.is_conflict(route, cell)) << cell;
+        EXPECT_FALSE(map.overlaps(route, cell, 1 - route).empty()) << "one behind the other";
+      } else if (map.is_conflict(route, cell)) {
+        is_any_after_parting |= s_m < 2.5;
+        is_any_before_merging |= s_m > map.length_m(route) - 0.5;
+        EXPECT_TRUE(s_m < 2.5 || s_m > map.length_m(route) - 0.5) << s_m;
+      }
+    }
+    EXPECT_TRUE(is_any_before_merging && is_any_after_parting);
+  }
+}
+
+TEST(ConflictMap, TheSameLaneInTheOtherDirectionIsAConflictAllAlong) {
+  const ConflictMap map({{circle({0.0, 0.0}, 1.0), circle({0.0, 0.0}, 1.0, -1.0)}}, kCar);
+  EXPECT_EQ(num_conflicts(map, 0), map.num_cells(0));
+  EXPECT_EQ(num_conflicts(map, 1), map.num_cells(1));
+}
+
+TEST(ConflictMap, AnEqualRouteIsNoConflict) {
+  const ConflictMap map({{circle({0.0, 0.0}, 1.0), circle({0.0, 0.0}, 1.0)}}, kCar);
+  EXPECT_EQ(num_conflicts(map, 0) + num_conflicts(map, 1), 0U);
+  EXPECT_EQ(map.overlaps(0, 5, 1).size(), map.overlaps(0, 5, 0).size());
+}
+
+}  // namespace
+}  // namespace hlc::right_of_way

@@ -1,0 +1,319 @@
+#include "planner/right_of_way/grant.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <random>
+
+#include "planner/scenario/starts.hpp"
+#include "tests/planner/right_of_way/routes.hpp"
+#include "tests/support/num_seeds.hpp"
+
+namespace hlc::right_of_way {
+namespace {
+
+constexpr double kLookAhead_m = 1.6;
+
+std::int64_t cell_at(const ConflictMap& map, std::size_t route, double s_m) {
+  return std::llround(s_m / map.cell_m(route));
+}
+
+std::size_t on_route(const ConflictMap& map, std::size_t route, std::int64_t cell) {
+  const auto count = static_cast<std::int64_t>(map.num_cells(route));
+  return static_cast<std::size_t>((cell % count + count) % count);
+}
+
+/// From `from_m` to `to_m` ahead of the place, both included.
+std::vector<std::size_t> cells_of(const ConflictMap& map, const Holder& holder, double from_m,
+                                  double to_m) {
+  const std::size_t route = holder.claim.route;
+  std::vector<std::size_t> cells;
+  for (std::int64_t cell = cell_at(map, route, holder.claim.place_m + from_m);
+       cell <= cell_at(map, route, holder.claim.place_m + to_m); ++cell) {
+    cells.push_back(on_route(map, route, cell));
+  }
+  return cells;
+}
+
+bool hold_overlapping_cells(const ConflictMap& map, const Holder& a, const Holder& b) {
+  const std::vector<std::size_t> others = cells_of(map, b, 0.0, b.claim.ahead_m);
+  return std::ranges::any_of(cells_of(map, a, 0.0, a.claim.ahead_m), [&](std::size_t i) {
+    return std::ranges::any_of(others, [&](std::size_t j) {
+      return std::ranges::binary_search(map.overlaps(a.claim.route, i, b.claim.route), j);
+    });
+  });
+}
+
+bool ends_in_conflict(const ConflictMap& map, const Holder& holder) {
+  const std::size_t route = holder.claim.route;
+  const double end_m = holder.claim.place_m + holder.claim.ahead_m;
+  return map.is_conflict(route, on_route(map, route, cell_at(map, route, end_m)));
+}
+
+std::vector<Holder> granted(const ConflictMap& map, std::vector<Holder> holders,
+                            std::span<const ConvexPolygon> blocked_m = {}) {
+  const std::vector<double> ahead_m = grant(map, holders, blocked_m, kLookAhead_m);
+  for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
+  return holders;
+}
+
+/// Up to 25 vehicles anywhere on the routes, no two with overlapping cells.
+std::vector<Holder> random_holders(const ConflictMap& map, std::mt19937_64& random) {
+  std::vector<Holder> holders;
+  for (int i = 0; i < 25; ++i) {
+    const auto route = static_cast<std::uint32_t>(random() % map.num_routes());
+    const Holder holder{
+        .vehicle = {static_cast<std::uint8_t>(i + 1)},
+        .claim = {.route = route,
+                  .place_m = std::uniform_real_distribution(0.0, map.length_m(route))(random),
+                  .ahead_m = std::uniform_real_distribution(0.0, 0.8)(random),
+                  .waiting_steps = static_cast<std::uint32_t>(random() % 4)}};
+    if (std::ranges::none_of(holders, [&](const Holder& other) {
+          return hold_overlapping_cells(map, holder, other);
+        })) {
+      holders.push_back(holder);
+    }
+  }
+  std::ranges::shuffle(holders, random);
+  return holders;
+}
+
+template <class Check>
+void for_random_holders(const Check& check) {
+  const ConflictMap& map = *lab_cars().conflicts;
+  for (std::uint64_t seed = 0; seed < test::num_costly_seeds(200); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    const std::vector<Holder> before = random_holders(map, random);
+    ASSERT_GE(before.size(), 5U);
+    check(map, before, random);
+  }
+}
+
+TEST(Grant, TakesNothingFromAnyoneAndNoTwoVehiclesGetOverlappingCells) {
+  double gained_m = 0.0;
+  for_random_holders([&](const ConflictMap& map, const std::vector<Holder>& before, auto&) {
+    const std::vector<Holder> after = granted(map, before);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      EXPECT_GE(after[i].claim.ahead_m, before[i].claim.ahead_m);
+      gained_m += after[i].claim.ahead_m - before[i].claim.ahead_m;
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_FALSE(hold_overlapping_cells(map, after[i], after[j])) << i << ' ' << j;
+      }
+    }
+  });
+  EXPECT_GT(gained_m, 100.0);
+}
+
+TEST(Grant, AStretchOfConflictCellsIsTakenAsAWholeOrNotAtAll) {
+  for_random_holders([](const ConflictMap& map, const std::vector<Holder>& before, auto&) {
+    const std::vector<Holder> after = granted(map, before);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      if (after[i].claim.ahead_m == before[i].claim.ahead_m) continue;
+      EXPECT_FALSE(ends_in_conflict(map, after[i])) << i;
+    }
+  });
+}
+
+TEST(Grant, NothingIsTakenBeyondTheLookAheadButTheRestOfAStretch) {
+  std::size_t beyond = 0;
+  for_random_holders([&](const ConflictMap& map, const std::vector<Holder>& before, auto&) {
+    const std::vector<Holder> after = granted(map, before);
+    for (const Holder& one : after) {
+      const std::size_t route = one.claim.route;
+      if (one.claim.ahead_m <= kLookAhead_m) continue;
+      ++beyond;
+      const double place_m = one.claim.place_m;
+      const auto last_within =
+          static_cast<std::int64_t>((place_m + kLookAhead_m) / map.cell_m(route));
+      for (std::int64_t cell = last_within; cell < cell_at(map, route, place_m + one.claim.ahead_m);
+           ++cell) {
+        EXPECT_TRUE(map.is_conflict(route, on_route(map, route, cell)));
+      }
+    }
+  });
+  EXPECT_GT(beyond, 10U);
+}
+
+TEST(Grant, BlockedAreasAreNotEntered) {
+  std::size_t shorter = 0;
+  for_random_holders([&](const ConflictMap& map, const std::vector<Holder>& before, auto& random) {
+    std::vector<ConvexPolygon> blocked_m;
+    std::uniform_real_distribution<double> anywhere(0.0, 4.0);
+    for (int i = 0; i < 8; ++i) {
+      blocked_m.push_back(
+          footprint_area(kCar.footprint, {anywhere(random), anywhere(random), anywhere(random)}));
+    }
+    const std::vector<Holder> after = granted(map, before, blocked_m);
+    const std::vector<Holder> unblocked = granted(map, before);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      shorter += after[i].claim.ahead_m < unblocked[i].claim.ahead_m ? 1U : 0U;
+      std::vector<std::size_t> taken =
+          cells_of(map, after[i], before[i].claim.ahead_m, after[i].claim.ahead_m);
+      taken.erase(taken.begin());  // held before
+      for (const std::size_t cell : taken) {
+        for (const ConvexPolygon& blocked : blocked_m) {
+          EXPECT_FALSE(intersects(map.area_m(after[i].claim.route, cell), blocked));
+        }
+      }
+    }
+  });
+  EXPECT_GT(shorter, 10U);
+}
+
+TEST(Grant, TheOrderOfTheInputDoesNotMatter) {
+  for_random_holders([](const ConflictMap& map, const std::vector<Holder>& before, auto& random) {
+    std::vector<Holder> after = granted(map, before);
+    std::vector<Holder> shuffled = before;
+    std::ranges::shuffle(shuffled, random);
+    shuffled = granted(map, std::move(shuffled));
+    const auto by_vehicle = [](const Holder& one) { return one.vehicle; };
+    std::ranges::sort(after, {}, by_vehicle);
+    std::ranges::sort(shuffled, {}, by_vehicle);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      EXPECT_EQ(after[i].claim.ahead_m, shuffled[i].claim.ahead_m) << i;
+    }
+  });
+}
+
+TEST(Grant, AllThatCanBeGrantedIsGrantedAtOnce) {
+  for_random_holders([](const ConflictMap& map, const std::vector<Holder>& before, auto&) {
+    const std::vector<Holder> after = granted(map, before);
+    const std::vector<Holder> again = granted(map, after);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      EXPECT_EQ(again[i].claim.ahead_m, after[i].claim.ahead_m) << i;
+    }
+  });
+}
+
+/// Two vehicles before the same crossing of two circles.
+class GrantAtACrossing : public testing::Test {
+ protected:
+  [[nodiscard]] Holder before_crossing(std::uint8_t vehicle, std::uint32_t route, double by_m,
+                                       std::uint32_t waiting_steps) const {
+    return {.vehicle = {vehicle},
+            .claim = {.route = route,
+                      .place_m = routes_[route].path.project({0.6, 0.8}).s_m - by_m,
+                      .waiting_steps = waiting_steps}};
+  }
+  /// Whether it may cross.
+  [[nodiscard]] std::vector<bool> may_cross(const std::vector<Holder>& holders) const {
+    std::vector<bool> result;
+    for (const double ahead_m : grant(map_, holders, {}, kLookAhead_m)) {
+      result.push_back(ahead_m > 0.6);
+    }
+    return result;
+  }
+
+  std::vector<road::DrivableRoute> routes_{circle({0.0, 0.0}, 1.0), circle({1.2, 0.0}, 1.0)};
+  ConflictMap map_{routes_, kCar};
+};
+
+TEST_F(GrantAtACrossing, TheSmallerIdComesFirstIfNobodyHasWaitedLonger) {
+  const Holder one = before_crossing(1, 0, 0.5, 3);
+  const Holder two = before_crossing(2, 1, 0.5, 3);
+  EXPECT_EQ(may_cross({one, two}), (std::vector{true, false}));
+  EXPECT_EQ(may_cross({two, one}), (std::vector{false, true}));
+}
+
+TEST_F(GrantAtACrossing, WhoHasWaitedLongerComesFirst) {
+  const Holder one = before_crossing(1, 0, 0.5, 3);
+  const Holder two = before_crossing(2, 1, 0.5, 4);
+  EXPECT_EQ(may_cross({one, two}), (std::vector{false, true}));
+  EXPECT_EQ(may_cross({two, one}), (std::vector{true, false}));
+}
+
+TEST_F(GrantAtACrossing, WhatIsHeldIsNotGrantedToOneWhoHasWaitedLonger) {
+  const Holder one = before_crossing(1, 0, 0.5, 100);
+  Holder two = before_crossing(2, 1, 0.5, 0);
+  two.claim.ahead_m = 1.0;
+  EXPECT_EQ(may_cross({one, two}), (std::vector{false, true}));
+}
+
+TEST_F(GrantAtACrossing, WhoMayNotCrossStopsInFrontOfTheFirstConflictCell) {
+  const Holder one = before_crossing(1, 0, 0.5, 0);
+  const Holder two = before_crossing(2, 1, 0.5, 0);
+  const std::vector<Holder> after = granted(map_, {one, two});
+  const std::size_t route = two.claim.route;
+  const std::int64_t end = cell_at(map_, route, two.claim.place_m + after[1].claim.ahead_m);
+  EXPECT_FALSE(map_.is_conflict(route, on_route(map_, route, end)));
+  EXPECT_TRUE(map_.is_conflict(route, on_route(map_, route, end + 1)));
+}
+
+TEST_F(GrantAtACrossing, BehindAVehicleAheadItEndsAtThatOnesPlace) {
+  Holder ahead = before_crossing(1, 0, -1.0, 0);  // beyond the crossing
+  ahead.claim.ahead_m = 1.0;
+  const Holder behind = before_crossing(2, 0, 0.5, 0);
+  const std::vector<Holder> after = granted(map_, {ahead, behind});
+  EXPECT_LT(after[1].claim.ahead_m, 1.5 - 0.24);
+  EXPECT_GT(after[1].claim.ahead_m, 1.5 - 0.24 - 0.08);
+}
+
+TEST(Grant, NothingIsGrantedWhereTheWholeRouteIsInConflict) {
+  const ConflictMap map({{circle({0.0, 0.0}, 1.0), circle({0.0, 0.0}, 1.0, -1.0)}}, kCar);
+  const Holder one{.vehicle = {1}, .claim = {.place_m = 1.0, .ahead_m = 0.25}};
+  EXPECT_EQ(grant(map, {&one, 1}, {}, kLookAhead_m), std::vector{0.25});
+}
+
+/// Cars that drive at random speeds to the ends of their authorities.
+class RandomTraffic {
+ public:
+  RandomTraffic(const scenario::Scenario& scenario, std::uint64_t seed)
+      : map_(*scenario.conflicts), random_(seed) {
+    for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
+      holders_.push_back({.vehicle = vehicle.id,
+                          .claim = {.route = vehicle.route_number, .place_m = vehicle.start_s_m}});
+    }
+  }
+
+  /// Longest wait, in steps, of a vehicle at its end.
+  std::uint32_t step() {
+    std::uint32_t longest = 0;
+    for (std::size_t i = 0; i < holders_.size(); ++i) {
+      coordination::LaneClaim& claim = holders_[i].claim;
+      const double moved_m =
+          std::min(claim.ahead_m, std::uniform_real_distribution(0.01, 0.16)(random_));
+      claim.place_m = std::fmod(claim.place_m + moved_m, map_.length_m(claim.route));
+      claim.ahead_m -= moved_m;
+      claim.waiting_steps = moved_m < 0.002 ? claim.waiting_steps + 1 : 0;
+      longest = std::max(longest, claim.waiting_steps);
+    }
+    holders_ = granted(map_, std::move(holders_));
+    return longest;
+  }
+
+  [[nodiscard]] const std::vector<Holder>& holders() const { return holders_; }
+
+ private:
+  const ConflictMap& map_;
+  std::mt19937_64 random_;
+  std::vector<Holder> holders_;
+};
+
+TEST(Grant, NoneOfTwentyCarsOfTheLabWaitsForever) {
+  std::uint32_t longest = 0;
+  for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(20); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const scenario::Scenario drawn = scenario::with_random_starts(lab_cars(), seed);
+    RandomTraffic traffic(drawn, seed);
+    std::uint32_t longest_of_draw = 0;
+    for (int step = 0; step < 2000; ++step) {
+      longest_of_draw = std::max(longest_of_draw, traffic.step());
+    }
+    EXPECT_LT(longest_of_draw, 500U) << "measured: at most 162";
+    longest = std::max(longest, longest_of_draw);
+    for (std::size_t i = 0; i < traffic.holders().size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_FALSE(
+            hold_overlapping_cells(*drawn.conflicts, traffic.holders()[i], traffic.holders()[j]));
+      }
+    }
+  }
+  EXPECT_GT(longest, 10U) << "nobody ever waited: nothing was tried";
+  RecordProperty("longest_wait_steps", static_cast<int>(longest));
+}
+
+}  // namespace
+}  // namespace hlc::right_of_way
