@@ -32,7 +32,10 @@ FaultStyle any_style(SeededRandom& random) {
 
 scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars) {
   const std::size_t routes = scenario.vehicles.size();
-  if (cars < routes) scenario.vehicles.resize(cars);
+  if (cars < routes) {
+    scenario.vehicles.erase(scenario.vehicles.begin() + static_cast<std::ptrdiff_t>(cars),
+                            scenario.vehicles.end());
+  }
   for (std::size_t i = routes; i < cars; ++i) {
     scenario::ScenarioVehicle vehicle = scenario.vehicles[i % routes];
     vehicle.id = {static_cast<std::uint8_t>(i + 1)};
