@@ -23,6 +23,7 @@ struct Same {
   std::optional<std::uint64_t> noise_seed;
   std::string policy{};
   int steps{40};
+  std::optional<std::size_t> cars{};
 };
 void PrintTo(const Same& one, std::ostream* out) {
   *out << one.scenario << "_" << one.profile << (one.policy.empty() ? "" : "_") << one.policy
@@ -34,6 +35,7 @@ class SameRun : public testing::TestWithParam<Same> {};
 std::string trace_with_processes(const Same& same, int steps) {
   LabProcesses lab({.scenario = same.scenario,
                     .profile = same.profile,
+                    .cars = same.cars,
                     .policy = same.policy,
                     .steps = steps,
                     .noise_seed = same.noise_seed});
@@ -48,7 +50,8 @@ TEST_P(SameRun, WithProcessesAndWithinOneProcessGivesTheSamePosesToTheLastBit) {
   const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/" + GetParam().scenario + ".yaml",
        .profile = GetParam().profile,
-       .policy = GetParam().policy.empty() ? std::nullopt : std::optional(GetParam().policy)});
+       .policy = GetParam().policy.empty() ? std::nullopt : std::optional(GetParam().policy),
+       .cars = GetParam().cars});
   const closed_loop::ExperimentOptions options{.steps = static_cast<std::uint64_t>(steps),
                                                .noise_seed = GetParam().noise_seed};
   const closed_loop::Experiment experiment = closed_loop::drive_experiment(scenario, options);
@@ -66,7 +69,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Same{"paper_three_cars", "default", std::nullopt},
                     Same{"paper_three_cars", "2022", 7}, Same{"circle", "default", 3},
                     Same{"reconfiguration", "default", 5, "", 115},
-                    Same{"reconfiguration", "2022", std::nullopt, "zone_look_ahead"}),
+                    Same{"reconfiguration", "2022", std::nullopt, "zone_look_ahead"},
+                    Same{"lab_cars", "default", 2, "", 40, 4}),
     testing::PrintToStringParamName());
 
 }  // namespace

@@ -24,6 +24,7 @@ scenario::ScenarioChoices choices_of(const LabOptions& options) {
     choices.file =
         test::source_folder() + "/launch_scripts/scenarios/" + options.scenario + ".yaml";
   }
+  choices.cars = options.cars;
   if (!options.policy.empty()) choices.policy = options.policy;
   if (!options.map_file.empty()) choices.map_file = options.map_file;
   return choices;
@@ -32,6 +33,7 @@ scenario::ScenarioChoices choices_of(const LabOptions& options) {
 std::vector<std::string> scenario_flags(const scenario::ScenarioChoices& choices) {
   std::vector<std::string> flags{"--scenario=" + choices.file.string(),
                                  "--profile=" + choices.profile};
+  if (choices.cars) flags.push_back("--cars=" + std::to_string(*choices.cars));
   if (choices.policy) flags.push_back("--policy=" + *choices.policy);
   if (choices.map_file) flags.push_back("--map=" + choices.map_file->string());
   return flags;

@@ -14,8 +14,9 @@ namespace hlc::test {
 struct LabOptions {
   std::string scenario{"paper_three_cars"};  ///< shipped one, or a file *.yaml
   std::string profile{"default"};
-  std::string policy{};    ///< instead of the scenario's
-  std::string map_file{};  ///< instead of the scenario's
+  std::optional<std::size_t> cars{};  ///< instead of the scenario's
+  std::string policy{};               ///< instead of the scenario's
+  std::string map_file{};             ///< instead of the scenario's
   int steps{25};
   bool simulated_time{true};
   std::optional<std::uint64_t> noise_seed;     ///< vehicle i has noise_seed + i

@@ -36,6 +36,24 @@ TEST(FaultCampaign, NothingIsViolatedInRunsWithFaultsOfAllKinds) {
   EXPECT_LT(totals.smallest_distance_m, 0.1) << describe(totals);
 }
 
+TEST(FaultCampaign, NothingIsViolatedAmongCarsWithRightOfWay) {
+  const FaultCampaign on_lab_network(
+      {.scenario_folder = test::source_folder() + "/launch_scripts/scenarios",
+       .on_lab_network = true,
+       .cars = 6,
+       .kinds = fault_kinds_of({})});
+  FaultTotals totals;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const FaultCase the_case = on_lab_network.draw(seed);
+    EXPECT_EQ(the_case.scenario.vehicles.size(), 6U);
+    EXPECT_NE(the_case.scenario.conflicts, nullptr);
+    const FaultRunResult result = FaultCampaign::run(the_case);
+    EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
+    totals.add(result);
+  }
+  EXPECT_GT(totals.planned, totals.car_steps / 2) << describe(totals);
+}
+
 TEST(FaultCampaign, WithoutFaultsEverybodyPlansInEveryStep) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const FaultCase the_case = campaign().draw(seed, {});

@@ -158,7 +158,8 @@ int campaign(const Choices& choices, const std::string& flags) {
 
 /// The flags to repeat before --replay for the same runs.
 std::string flags_of(const Choices& choices) {
-  return fmt::format(" --cars {}{}{}", choices.campaign.cars,
+  return fmt::format(" --cars {}{}{}{}", choices.campaign.cars,
+                     choices.campaign.on_lab_network ? " --lab_network" : "",
                      choices.faults.empty() ? "" : " --faults ", fmt::join(choices.faults, ","));
 }
 
@@ -174,6 +175,8 @@ int main(int argc, char** argv) {
   app.add_option("--cars", choices.campaign.cars, "0: as the seed has it")
       ->check(hlc::apps::among({"0", "3", "4", "5", "6", "7", "8"}))
       ->capture_default_str();
+  app.add_flag("--lab_network", choices.campaign.on_lab_network,
+               "cars with right of way on the roads of lab_cars in all runs");
   app.add_option("--runs", choices.runs, "number of runs")
       ->check(hlc::apps::whole(1, kLargestSeed))
       ->capture_default_str();

@@ -32,6 +32,10 @@ FaultStyle any_style(SeededRandom& random) {
 
 scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars) {
   const std::size_t routes = scenario.vehicles.size();
+  if (cars < routes) {
+    scenario.vehicles.erase(scenario.vehicles.begin() + static_cast<std::ptrdiff_t>(cars),
+                            scenario.vehicles.end());
+  }
   for (std::size_t i = routes; i < cars; ++i) {
     scenario::ScenarioVehicle vehicle = scenario.vehicles[i % routes];
     vehicle.id = {static_cast<std::uint8_t>(i + 1)};
@@ -42,17 +46,23 @@ scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars) {
 }
 
 FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::move(settings)) {
-  const std::filesystem::path circle = settings_.scenario_folder / "circle.yaml";
-  const scenario::Scenario paper =
-      scenario::read_scenario({.file = settings_.scenario_folder / "paper_three_cars.yaml"});
-  const controller::PreparedSubgraph on_paper = scenario::prepare_subgraph_of(paper);
+  const std::filesystem::path& folder = settings_.scenario_folder;
+  const scenario::Scenario roads =
+      settings_.on_lab_network
+          ? scenario::read_scenario({.file = folder / "lab_cars.yaml", .cars = kMostCars})
+          : scenario::read_scenario({.file = folder / "paper_three_cars.yaml"});
+  const controller::PreparedSubgraph on_roads = scenario::prepare_subgraph_of(roads);
   for (std::size_t cars = kFewestCars; cars <= kMostCars; ++cars) {
     if (settings_.cars != 0 && settings_.cars != cars) continue;
-    scenario::Scenario on_circle = scenario::read_scenario({.file = circle, .cars = cars});
-    controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(on_circle);
-    scenarios_.emplace(
-        cars, Scenarios{.circle = {std::move(on_circle), std::move(prepared)},
-                        .paper = {.scenario = with_cars(paper, cars), .subgraph = on_paper}});
+    Scenarios scenarios{.circle = {},
+                        .roads = {.scenario = with_cars(roads, cars), .subgraph = on_roads}};
+    if (!settings_.on_lab_network) {
+      scenario::Scenario on_circle =
+          scenario::read_scenario({.file = folder / "circle.yaml", .cars = cars});
+      controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(on_circle);
+      scenarios.circle = {.scenario = std::move(on_circle), .subgraph = std::move(prepared)};
+    }
+    scenarios_.emplace(cars, std::move(scenarios));
   }
 }
 
@@ -61,10 +71,11 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
   FaultCase the_case{.seed = seed};
   auto chosen = scenarios_.begin();
   std::advance(chosen, static_cast<std::ptrdiff_t>(random.below(scenarios_.size())));
-  const bool is_paper = random.chance(0.7);
-  const Prepared& drawn = is_paper ? chosen->second.paper : chosen->second.circle;
+  const std::optional<Prepared>& circle = chosen->second.circle;
+  const bool is_on_roads = random.chance(0.7) || !circle;
+  const Prepared& drawn = is_on_roads ? chosen->second.roads : *circle;
   the_case.scenario =
-      is_paper ? scenario::with_random_starts(drawn.scenario, random.next()) : drawn.scenario;
+      is_on_roads ? scenario::with_random_starts(drawn.scenario, random.next()) : drawn.scenario;
   FaultRunSettings& run = the_case.run;
   run.lab.prepared = drawn.subgraph;
   run.lab.seed = seed;
@@ -74,7 +85,7 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
       !run.lab.is_logical && random.chance(0.5) ? Transport::kLab : Transport::kLoopback;
   FaultPlanSettings plan{.style = any_style(random),
                          .kinds = settings_.kinds,
-                         .last = is_paper ? kLastFault : kLastFaultOnCircle};
+                         .last = is_on_roads ? kLastFault : kLastFaultOnCircle};
   if (run.lab.is_logical) plan.last = kLastLogicalFault;
   for (const scenario::ScenarioVehicle& vehicle : the_case.scenario.vehicles) {
     plan.vehicle_ids.push_back(vehicle.id.value);

@@ -14,7 +14,8 @@
 namespace hlc::closed_loop {
 
 struct FaultCampaignSettings {
-  std::filesystem::path scenario_folder;  ///< holds circle.yaml and paper_three_cars.yaml
+  std::filesystem::path scenario_folder;  ///< holds circle, paper_three_cars and lab_cars
+  bool on_lab_network{};                  ///< all runs on the roads of lab_cars
   std::size_t cars{};                     ///< 3 ... 8; 0: by the seed
   std::vector<FaultKind> kinds;           ///< of the faults; empty: no faults
 };
@@ -36,14 +37,15 @@ struct Shrunk {
   FaultRunResult result;
 };
 
-/// The scenario with so many cars, the further ones on the same routes; for random starts.
+/// The scenario with so many cars, the first ones, or further ones on the same routes; for random
+/// starts.
 /// @pre vehicles are numbered from 1
 [[nodiscard]] scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars);
 
 /// Runs with faults, one for each seed. A seed chooses
 ///   * the scenario: cars on a circle that all drive to the other side, or cars on the paper's
-///   three
-///     routes, which merge and cross, from random starts;
+///     three routes, which merge and cross, from random starts; or, if the settings say so, cars
+///     with right of way, drawn from the paths of lab_cars;
 ///   * real time or (one in five) logical time, the endpoints of the lab or of loopback;
 ///   * the faults (draw_faults) and their distribution in time, and every delay.
 /// Scenarios are read and automata built once; then any number of threads may run.
@@ -68,8 +70,8 @@ class FaultCampaign {
     controller::PreparedSubgraph subgraph;
   };
   struct Scenarios {
-    Prepared circle;
-    Prepared paper;
+    std::optional<Prepared> circle;
+    Prepared roads;  ///< for random starts
   };
   std::map<std::size_t, Scenarios> scenarios_;  ///< by number of cars
 };
