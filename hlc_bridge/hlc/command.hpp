@@ -13,7 +13,7 @@ namespace hlc::high_level_controller {
 /// at the end, long enough for the vehicle's look-ahead as long as the copy is usable.
 ///
 /// Without a plan: no points, which no vehicle follows, and valid only when no former command is
-/// usable any more, its copy included. So it answers the list, and changes nothing: whatever the
+/// usable any longer, its copy included. So it answers the list, and changes nothing: whatever the
 /// vehicle drives, it drives to its end.
 [[nodiscard]] TrajectoryCommand command_of(VehicleId vehicle, const coordination::Plan* plan,
                                            StepIndex step, Nanoseconds t_now, Nanoseconds period,

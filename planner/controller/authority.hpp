@@ -17,7 +17,7 @@ namespace hlc::controller {
 /// value; the map is shared.
 ///
 /// The end of the authority is a limit of planning, on top of everything that keeps plans apart:
-/// whatever the others hold or have told, no plan meets another's. It is never in front of the end
+/// whatever the others hold or announce, no plan meets another's. It is never in front of the end
 /// of the plan in force, so the plan in force, continued, always keeps to it.
 class Authority {
  public:
@@ -34,8 +34,8 @@ class Authority {
   [[nodiscard]] bool knows(VehicleId vehicle) const { return known_.contains(vehicle); }
 
   /// Takes what is granted to this vehicle, given what all others hold. A silent vehicle may have
-  /// taken everything that can have been granted to it since it was heard: it holds a look-ahead,
-  /// and in each step of silence the length of a step more.
+  /// taken everything that can have been granted to it since its last message: it holds a
+  /// look-ahead, and in each step of silence the length of a step more.
   /// @param others     of which a claim on the same map has been received in this step
   /// @param silent     known vehicles that were not received in this step
   /// @param blocked_m  areas of others that hold nothing

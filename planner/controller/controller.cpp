@@ -184,39 +184,6 @@ void Controller::couple(std::span<const coordination::Traffic> received) {
   }
 }
 
-void Controller::extend_authority() {
-  if (!authority_) return;
-  const automaton::UniversalAutomaton& automaton = subgraph().automaton();
-  std::vector<ConvexPolygon> blocked_m;
-  std::vector<VehicleId> silent;
-  for (const VehicleId other : neighbours_.missing()) {
-    const coordination::MeasuredVehicle* const measured = step_.observation.measured(other);
-    if (measured != nullptr && neighbours_.stands_for_good(other, options_.horizon_steps)) {
-      blocked_m.push_back(coordination::standing_area(*measured, neighbours_.rules()));
-    } else if (authority_->knows(other)) {
-      silent.push_back(other);
-    } else if (measured != nullptr) {
-      blocked_m.push_back(coordination::reachable_disc(
-          *measured, static_cast<double>(options_.horizon_steps + 1) * automaton.step_s,
-          neighbours_.rules()));
-    } else {
-      return;  // it may be anywhere
-    }
-  }
-  std::vector<const coordination::Traffic*> holders;
-  for (const coordination::Traffic* traffic : neighbours_.received()) {
-    if (traffic->claim && traffic->claim->route < options_.conflicts->num_routes()) {
-      holders.push_back(traffic);
-      continue;
-    }
-    blocked_m.insert(blocked_m.end(), traffic->running.areas_m.begin(),
-                     traffic->running.areas_m.end());
-    blocked_m.push_back(traffic->running.final_area_m);
-  }
-  authority_->extend(options_.vehicle, holders, silent, blocked_m,
-                     neighbours_.rules().max_speed_mps * automaton.step_s);
-}
-
 std::optional<double> Controller::path_s_m_of(const Point& position_m) const {
   if (!path_s_m()) return std::nullopt;
   return tracker_.project(position_m, reach_m());

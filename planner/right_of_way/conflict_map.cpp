@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/common/demand.hpp"
+#include "planner/geometry/near_points.hpp"
 #include "planner/road/driving_line.hpp"
 
 namespace hlc::right_of_way {
@@ -20,9 +21,21 @@ constexpr double kMostSlip = 0.9;
 ConflictMap::ConflictMap(std::span<const road::DrivableRoute> routes,
                          const vehicle::VehicleParameters& vehicle, const ConflictRules& rules) {
   for (const road::DrivableRoute& route : routes) add_route(route, vehicle, rules);
+  std::vector<CellName> names;
+  NearPoints near(2.0 * reach_of_area_m_);
   for (std::size_t route = 0; route < routes_.size(); ++route) {
-    for (Cell& cell : routes_[route]) cell.overlaps.resize(routes_.size());
-    for (std::size_t other = 0; other < routes_.size(); ++other) relate(route, other, rules);
+    for (std::size_t cell = 0; cell < routes_[route].size(); ++cell) {
+      names.push_back({route, cell});
+      near.add(routes_[route][cell].pose.position_m());
+    }
+  }
+  std::vector<CellName> beside;
+  for (const CellName& name : names) {
+    Cell& cell = routes_[name.route][name.cell];
+    cell.overlaps.resize(routes_.size());
+    beside.clear();
+    near.visit(cell.pose.position_m(), [&](std::size_t i) { beside.push_back(names[i]); });
+    relate(cell, name.route, beside, rules);
   }
 }
 
@@ -55,30 +68,27 @@ std::size_t ConflictMap::cells_apart(std::size_t route, std::size_t a, std::size
   return std::min(apart, num_cells(route) - apart);
 }
 
-void ConflictMap::relate(std::size_t route, std::size_t other, const ConflictRules& rules) {
-  const double reach_m = 2.0 * reach_of_area_m_;
-  const auto following = static_cast<std::size_t>(rules.following_m / cell_m(other));
-  for (std::size_t i = 0; i < routes_[route].size(); ++i) {
-    Cell& cell = routes_[route][i];
-    std::vector<std::size_t> same;
-    std::vector<std::uint32_t>& overlaps = cell.overlaps[other];
-    for (std::size_t j = 0; j < routes_[other].size(); ++j) {
-      const Cell& beside = routes_[other][j];
-      const double apart_m = (cell.pose.position_m() - beside.pose.position_m()).norm();
-      if (apart_m > reach_m) continue;
-      const double turned_rad = wrap_angle(cell.pose.heading_rad - beside.pose.heading_rad);
-      if (apart_m < rules.same_place_m && std::abs(turned_rad) < rules.same_heading_rad) {
-        same.push_back(j);
-      }
-      if (overlap(bounding_box(cell.area_m), bounding_box(beside.area_m)) &&
-          intersects(cell.area_m, beside.area_m)) {
-        overlaps.push_back(static_cast<std::uint32_t>(j));
-      }
+void ConflictMap::relate(Cell& cell, std::size_t route, const std::vector<CellName>& near,
+                         const ConflictRules& rules) const {
+  std::vector<std::vector<std::size_t>> same(routes_.size());
+  for (const CellName& name : near) {
+    const Cell& other = routes_[name.route][name.cell];
+    const double apart_m = (cell.pose.position_m() - other.pose.position_m()).norm();
+    const double turned_rad = wrap_angle(cell.pose.heading_rad - other.pose.heading_rad);
+    const bool is_same = name.route == route ? &other == &cell
+                                             : apart_m < rules.same_place_m &&
+                                                   std::abs(turned_rad) < rules.same_heading_rad;
+    if (is_same) same[name.route].push_back(name.cell);
+    if (intersects(cell.area_m, other.area_m)) {
+      cell.overlaps[name.route].push_back(static_cast<std::uint32_t>(name.cell));
     }
-    if (route == other) same = {i};
-    cell.is_conflict |= std::ranges::any_of(overlaps, [&](std::size_t j) {
+  }
+  for (std::size_t other = 0; other < routes_.size(); ++other) {
+    std::ranges::sort(cell.overlaps[other]);
+    const auto following = static_cast<std::size_t>(rules.following_m / cell_m(other));
+    cell.is_conflict |= std::ranges::any_of(cell.overlaps[other], [&](std::size_t j) {
       return std::ranges::none_of(
-          same, [&](std::size_t k) { return cells_apart(other, j, k) <= following; });
+          same[other], [&](std::size_t k) { return cells_apart(other, j, k) <= following; });
     });
   }
 }

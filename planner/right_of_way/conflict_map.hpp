@@ -69,9 +69,15 @@ class ConflictMap {
     bool is_conflict{};
   };
 
+  struct CellName {
+    std::size_t route;
+    std::size_t cell;
+  };
+
   void add_route(const road::DrivableRoute& route, const vehicle::VehicleParameters& vehicle,
                  const ConflictRules& rules);
-  void relate(std::size_t route, std::size_t other, const ConflictRules& rules);
+  void relate(Cell& cell, std::size_t route, const std::vector<CellName>& near,
+              const ConflictRules& rules) const;
   [[nodiscard]] std::size_t cells_apart(std::size_t route, std::size_t a, std::size_t b) const;
 
   std::vector<std::vector<Cell>> routes_;

@@ -21,7 +21,7 @@ struct Holder {
 /// The vehicle that has waited longest comes first, then the smaller id. Its authority is extended
 /// cell by cell, up to `look_ahead_m` from its place, while the next cell overlaps no cell that
 /// another vehicle holds and nothing that is blocked; a stretch of conflict cells only as a whole,
-/// with the first cell behind it that is none. Behind a vehicle ahead it thereby ends at that one's
+/// with the first cell behind it that is none. Behind a vehicle ahead it ends at that one's
 /// present place, not where it is going to be.
 ///
 /// A pure function of what all vehicles announced: controllers that received the same compute the

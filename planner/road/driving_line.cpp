@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planner/common/demand.hpp"
+#include "planner/geometry/near_points.hpp"
 #include "planner/geometry/pose.hpp"
 
 namespace hlc::road {
@@ -46,13 +47,18 @@ struct Sides {
 class NeighbourLanes {
  public:
   NeighbourLanes(const std::vector<std::vector<Pose>>& paths, double lane_width_m)
-      : paths_(paths), lane_width_m_(lane_width_m) {}
+      : lane_width_m_(lane_width_m), near_(2.0 * lane_width_m) {
+    for (const std::vector<Pose>& path : paths) {
+      for (const Pose& pose : path) {
+        poses_.push_back(pose);
+        near_.add(pose.position_m());
+      }
+    }
+  }
 
   [[nodiscard]] Sides beside(const Pose& pose) const {
     Sides sides;
-    for (const std::vector<Pose>& path : paths_) {
-      for (const Pose& other : path) note(pose, other, sides);
-    }
+    near_.visit(pose.position_m(), [&](std::size_t i) { note(pose, poses_[i], sides); });
     return sides;
   }
 
@@ -74,8 +80,9 @@ class NeighbourLanes {
     (across_m > 0.0 ? sides.left : sides.right) = true;
   }
 
-  const std::vector<std::vector<Pose>>& paths_;
   double lane_width_m_;
+  std::vector<Pose> poses_;
+  NearPoints near_;
 };
 
 std::vector<double> smoothed(const std::vector<double>& values) {

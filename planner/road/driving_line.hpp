@@ -41,7 +41,7 @@ class DrivingLine {
 ///
 /// with the lane's width w, the car's width b, kappa > 0 to the left; - if the kerb is on the
 /// right. 0.372 is measured (8 mm on the lab's straight lanes): with 7 or 9 mm twenty cars stood
-/// for ever in 1 to 2 of 6 runs, with 8 mm in none of 18. Neighbour lanes, of either direction, are
+/// forever in 1 to 2 of 6 runs, with 8 mm in none of 18. Neighbour lanes, of either direction, are
 /// recognised by other paths at about a lane's width. Averaged over 0.36 m.
 /// @param paths  closed; all routes of a run
 [[nodiscard]] std::vector<DrivingLine> driving_lines(std::span<const ReferencePath> paths,

@@ -25,6 +25,14 @@ void set_wheelbase(const SweepValue& value, maneuver_design::AutomatonConfigurat
   vehicle.wheelbase_m = value.number;
 }
 
+void set_reference_speed(const SweepValue& value, scenario::Scenario& scenario) {
+  scenario.reference_speed_mps = value.number;
+}
+
+void set_contouring_weight(const SweepValue& value, scenario::Scenario& scenario) {
+  scenario.contouring_weight = value.number;
+}
+
 void set_reference_rule(const SweepValue& value, scenario::Scenario& scenario) {
   scenario.profile.reference_rule =
       value.text == "2022" ? road::half_speed_last : road::mean_speed_first;
@@ -39,20 +47,12 @@ const std::vector<SweepSetting>& sweep_settings() {
       {kProfileSetting, false, one_of({"default", "2022"}), {}, {}},
       {"reference_rule", false, one_of({"2022", "later"}), {}, set_reference_rule},
       {"search", false, one_of({"branch_and_bound", "best_first", "2022"}), {}, set_search},
-      {"reference_speed_mps",
-       true,
-       above(0.0, 100.0),
-       {},
-       [](const Value& value, scenario::Scenario& scenario) {
-         scenario.reference_speed_mps = value.number;
-       }},
+      {"reference_speed_mps", true, above(0.0, 100.0), {}, set_reference_speed},
       {"contouring_weight",
        true,
        between(0.0, controller::kMostContouringWeight),
        {},
-       [](const Value& value, scenario::Scenario& scenario) {
-         scenario.contouring_weight = value.number;
-       }},
+       set_contouring_weight},
       {"drivable", false, one_of({"lanes", "everywhere"}), {}, set_drivable},
       {"acceleration_mps2",
        true,

@@ -58,7 +58,7 @@ class DrivenPlans {
   void predicted(const coordination::Prediction& prediction) {
     cars_[prediction.vehicle].predicted = prediction;
   }
-  /// @param is_seen  the controller sees its vehicle in this step, or cannot tell from its lists
+  /// @param is_seen  the controller sees its vehicle in this step, or cannot know it from its lists
   void published(const coordination::Traffic& traffic, bool is_seen = true);
   /// @param at  true time
   void commanded(const TrajectoryCommand& command, Nanoseconds at, Violations& violations);

@@ -44,7 +44,7 @@ struct Shrunk {
 
 /// Runs with faults, one for each seed. A seed chooses
 ///   * the scenario: cars on a circle that all drive to the other side, or cars on the paper's
-///     three routes, which merge and cross, from random starts; or, if the settings say so, cars
+///     three routes, which merge and cross, from random starts; or, with `has_right_of_way`, cars
 ///     with right of way, drawn from the paths of lab_cars;
 ///   * real time or (one in five) logical time, the endpoints of the lab or of loopback;
 ///   * the faults (draw_faults) and their distribution in time, and every delay.

@@ -169,7 +169,7 @@ class Draw {
     faults.push_back(fault);
   }
 
-  /// It is suspended for so long that it is believed dead, and no other one receives it any more.
+  /// It is suspended for so long that it is believed dead, and no other one receives it any longer.
   void add_mute_controller(std::vector<Fault>& faults) {
     const std::vector<std::uint8_t>& ids = settings_.vehicle_ids;
     const std::uint8_t id = ids[random_.below(ids.size())];

@@ -118,12 +118,12 @@ TEST(LabCars, MoreCarsThanFitAreRefusedWithHowManyDo) {
               HasSubstr("draw.cars = 31, must be a whole number >= 1 and <= 30"));
   // The third car would stand where the first one does.
   EXPECT_THAT(error_of("[path 9,", "[path 9, path 11, path 9]", "]"),
-              HasSubstr(".yaml:14: draw.cars = 20, must be in 1 ... 2: no more cars fit"));
+              HasSubstr(".yaml:16: draw.cars = 20, must be in 1 ... 2: no more cars fit"));
 }
 
 TEST(LabCars, UnknownRoutesAreNamedWithTheirPlaces) {
   EXPECT_THAT(error_of("[path 9,", "[path 99,"),
-              HasSubstr(".yaml:15: draw.routes[1] = path 99, must be the name of"));
+              HasSubstr(".yaml:17: draw.routes[1] = path 99, must be the name of"));
   EXPECT_THAT(error_of("of: loop 2, from: 10", "of: loop 9, from: 10"),
               HasSubstr("of = loop 9, must be the name of a closed route above"));
   EXPECT_THAT(error_of("of: loop 2, from: 10", "of: loop 2, from: 999"),
@@ -241,7 +241,7 @@ TEST(RandomRoutes, AStartWithoutAWayBackIsRefusedByItsLanelet) {
   choices.cars = 30;
   EXPECT_THAT([&] { static_cast<void>(read_scenario(choices)); },
               testing::ThrowsMessage<std::invalid_argument>(AllOf(
-                  HasSubstr(".yaml:15: draw.routes = (a list), must be starts for random routes: "),
+                  HasSubstr(".yaml:17: draw.routes = (a list), must be starts for random routes: "),
                   HasSubstr("no way leads back to lanelet 15"))));
 }
 
