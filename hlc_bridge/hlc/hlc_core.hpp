@@ -76,10 +76,10 @@ class HlcCore {
   [[nodiscard]] bool has_begun() const { return has_begun_; }
 
   /// The plan in force as commands, in answer to the list; without a plan an answer that leaves the
-  /// vehicle alone (command_of). The commands are checked (own_command_check.hpp). On a fault, the last good command is
-  /// republished, which ends in standstill: the vehicle leaves its plan, and the controller treats
-  /// it as a disturbed one. Plans beyond the lab's limits do not get this far: the controller drops
-  /// them before it announces them. To be called once per list.
+  /// vehicle alone (command_of). The commands are checked (own_command_check.hpp). On a fault, the
+  /// last good command is republished, which ends in standstill: the vehicle leaves its plan, and
+  /// the controller treats it as a disturbed one. Plans beyond the lab's limits do not get this
+  /// far: the controller drops them before it announces them. To be called once per list.
   [[nodiscard]] AnswerToList answer(const VehicleStateList& list);
 
  private:
@@ -92,7 +92,7 @@ class HlcCore {
   std::unique_ptr<controller::Controller> controller_;
   std::map<VehicleId, SettledStates> settled_;
   std::optional<StepIndex> last_step_;
-  std::size_t stood_lists_{};    ///< consecutive, up to the last one
+  std::size_t stood_lists_{};  ///< consecutive, up to the last one
   bool is_seen_from_begin_{};  ///< in a list of the time's first SettledStates::kSpan
   std::optional<TrajectoryCommand> last_good_;
   bool has_begun_{};

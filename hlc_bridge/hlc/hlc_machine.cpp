@@ -217,9 +217,8 @@ bool HlcMachine::may_stand_by() const {
 /// if it were not seen.
 void HlcMachine::disregard_own_vehicle() {
   const VehicleId own = controller().options().vehicle;
-  std::erase_if(current_.observation.states, [own](const coordination::MeasuredVehicle& one) {
-    return one.vehicle == own;
-  });
+  std::erase_if(current_.observation.states,
+                [own](const coordination::MeasuredVehicle& one) { return one.vehicle == own; });
 }
 
 bool HlcMachine::step(const Instant& now) {
