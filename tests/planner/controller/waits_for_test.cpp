@@ -25,7 +25,7 @@ coordination::Plan standing() {
 
 /// What car 1 plans when nobody is near: 1.3 m to the east.
 const coordination::Plan& eastwards() {
-  static const coordination::Plan plan = [] {
+  static const coordination::Plan kPlan = [] {
     const auto one = controller(1);
     static_cast<void>(one->stand_by(at(kNow - 1, {seen(1, 0.0, 0.0)})));
     static_cast<void>(one->observe(at(kNow, {seen(1, 0.0, 0.0)})));
@@ -34,7 +34,7 @@ const coordination::Plan& eastwards() {
     static_cast<void>(one->commit({}, {}));
     return one->plan_in_force();
   }();
-  return plan;
+  return kPlan;
 }
 
 ConvexPolygon wall(double x_m) {

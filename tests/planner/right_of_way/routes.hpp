@@ -62,9 +62,9 @@ inline road::DrivableRoute loop_beside_lane(double side) {
 
 /// 20 cars drawn on the lab's road network.
 inline const scenario::Scenario& lab_cars() {
-  static const scenario::Scenario result = scenario::read_scenario(
+  static const scenario::Scenario kScenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml"});
-  return result;
+  return kScenario;
 }
 
 }  // namespace hlc::right_of_way

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "tests/support/every.hpp"
 #include "tests/support/num_seeds.hpp"
 
 namespace hlc::road::driving_line_test {
@@ -32,7 +33,7 @@ double moved_m(double kerb, double curvature_per_m) {
 
 /// That the line is `left_m` to the left everywhere.
 void expect_everywhere(const DrivingLine& line, const ReferencePath& path, double left_m) {
-  for (double s_m = 0.0; s_m < path.length_m(); s_m += 0.017) {
+  for (const double s_m : test::every(0.017, 0.0, path.length_m())) {
     ASSERT_NEAR(line.left_m(s_m), left_m, 2e-5) << s_m;
   }
 }
@@ -44,7 +45,7 @@ std::vector<DrivingLine> lines_of(const std::vector<ReferencePath>& paths) {
 TEST(DrivingLine, WithoutAnOffsetItIsThePath) {
   const ReferencePath path = ring(1.0);
   const DrivingLine line;
-  for (double s_m = -1.0; s_m < 14.0; s_m += 0.3) {
+  for (const double s_m : test::every(0.3, -1.0, 14.0)) {
     EXPECT_EQ(line.left_m(s_m), 0.0);
     EXPECT_EQ(line.at(path, s_m), path.at(s_m));
   }
@@ -69,7 +70,7 @@ TEST(DrivingLine, TheOffsetIsInterpolatedAroundTheEndOfThePath) {
 
 TEST(DrivingLine, ItsPointsLieLeftOfThePath) {
   const DrivingLine line({0.02}, 2.0 * std::numbers::pi);
-  for (double s_m = 0.0; s_m < 6.3; s_m += 0.1) {
+  for (const double s_m : test::every(0.1, 0.0, 6.3)) {
     EXPECT_NEAR(line.at(ring(1.0), s_m).norm(), 0.98, 1e-5) << "inside";
     EXPECT_NEAR(line.at(ring(1.0, -1.0), s_m).norm(), 1.02, 1e-5) << "outside";
   }
@@ -79,7 +80,7 @@ TEST(DrivingLine, CurvatureIsPositiveToTheLeft) {
   for (std::uint64_t seed = 0; seed < test::num_seeds(20); ++seed) {
     std::mt19937_64 random(seed);
     const double radius_m = std::uniform_real_distribution(0.4, 3.0)(random);
-    for (double s_m = 0.0; s_m < 2.0 * std::numbers::pi * radius_m; s_m += 0.1) {
+    for (const double s_m : test::every(0.1, 0.0, 2.0 * std::numbers::pi * radius_m)) {
       EXPECT_NEAR(chord_curvature_per_m(ring(radius_m), s_m, 0.1) * radius_m, 1.0, 0.05)
           << "seed " << seed << ", also where the heading jumps by a turn: " << s_m;
       EXPECT_NEAR(chord_curvature_per_m(ring(radius_m, -1.0), s_m, 0.1) * radius_m, -1.0, 0.05)
@@ -90,7 +91,7 @@ TEST(DrivingLine, CurvatureIsPositiveToTheLeft) {
 
 TEST(DrivingLine, ChordsHeadAlongThePath) {
   const ReferencePath path = ring(1.0);
-  for (double s_m = 0.0; s_m < 6.0; s_m += 0.1) {
+  for (const double s_m : test::every(0.1, 0.0, 6.0)) {
     EXPECT_NEAR(wrap_angle(chord_heading_rad(path, s_m, 0.05) - std::numbers::pi / 2.0 - s_m), 0.0,
                 1e-3);
   }
@@ -150,7 +151,7 @@ TEST(DrivingLines, AreWithoutJumps) {
   const ReferencePath path = ring(1.0);
   const DrivingLine line = lines_of({path, ReferencePath(points_m, true)}).front();
   double most_m = 0.0;
-  for (double s_m = 0.0; s_m < path.length_m(); s_m += 0.01) {
+  for (const double s_m : test::every(0.01, 0.0, path.length_m())) {
     most_m = std::max(most_m, std::abs(line.left_m(s_m)));
     EXPECT_LT(std::abs(line.left_m(s_m + 0.01) - line.left_m(s_m)), 0.001) << s_m;
   }

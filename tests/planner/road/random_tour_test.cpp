@@ -12,6 +12,7 @@
 #include "planner/road/lap.hpp"
 #include "planner/road/placement.hpp"
 #include "planner/road/route.hpp"
+#include "tests/support/every.hpp"
 #include "tests/support/num_seeds.hpp"
 
 namespace hlc::road::random_tour_test {
@@ -164,7 +165,7 @@ TEST_F(OnARandomTour, ACarNearItsStartIsFoundThereAndNotWhereTheTourComesByAgain
 
 TEST_F(OnARandomTour, ACarFurtherOnIsFoundAtTheNextOfItsPlaces) {
   const double middle_s_m = route_.path.length_m() / 2.0;
-  for (double s_m = middle_s_m; s_m < middle_s_m + 20.0; s_m += 0.37) {
+  for (const double s_m : test::every(0.37, middle_s_m, middle_s_m + 20.0)) {
     EXPECT_NEAR(placement_on(drivable_, pose_at(s_m), footprint_, s_m - 0.3).s_m, s_m, 1e-6);
   }
 }
@@ -172,7 +173,7 @@ TEST_F(OnARandomTour, ACarFurtherOnIsFoundAtTheNextOfItsPlaces) {
 TEST_F(OnARandomTour, ProgressGoesRoundTheWholeTour) {
   const double start_s_m = route_.lanelet_s_m[1];
   std::vector<Point> positions_m;
-  for (double s_m = 0.0; s_m < route_.path.length_m() + 5.0; s_m += 0.16) {
+  for (const double s_m : test::every(0.16, 0.0, route_.path.length_m() + 5.0)) {
     positions_m.push_back(route_.path.at(start_s_m + s_m));
   }
   const Progress progress = progress_along(route_.path, positions_m);
