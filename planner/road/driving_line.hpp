@@ -42,8 +42,8 @@ class DrivingLine {
 /// with the lane's width w, the car's width b, kappa > 0 to the left; - if the kerb is on the
 /// right. 0.372 makes 8 mm on the lab's straight lanes. Of six runs of twenty cars with a
 /// contouring weight of 60, five came to a standstill without lines, two with 7 mm, one each with 8
-/// and 9 mm, five with 12 mm. Neighbour lanes, of either direction, are recognised by other paths
-/// at about a lane's width. Averaged over 0.36 m.
+/// and 9 mm. Neighbour lanes, of either direction, are recognised by other paths at about a lane's
+/// width. Averaged over 0.36 m.
 /// @param paths  closed; all routes of a run
 [[nodiscard]] std::vector<DrivingLine> driving_lines(std::span<const ReferencePath> paths,
                                                      double lane_width_m,
