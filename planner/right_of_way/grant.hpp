@@ -25,12 +25,12 @@ struct Holder {
 /// present place, not where it is going to be.
 ///
 /// A pure function of what all vehicles announced: controllers that received the same compute the
-/// same, without a further message. It never takes a cell from a vehicle, so whoever assumes that a
-/// silent vehicle holds more than it does takes less, and contradicts nobody.
+/// same, without a further message. It never takes a cell from a vehicle. Two controllers that
+/// received different messages may take the same cell.
 ///
 /// What this is for: no vehicle ever stops in a cell that a vehicle of another lane needs. That no
-/// state without a way on is reached is measured (tests/benchmarks/right_of_way), not proven: two
-/// vehicles may still wait for each other around a circle of full lanes.
+/// state without a way on is reached is measured, not proven: vehicles may still wait for each
+/// other around a circle of full lanes.
 /// @param blocked_m  areas of what holds no cells: vehicles off the road or without a controller
 [[nodiscard]] std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holders,
                                         std::span<const ConvexPolygon> blocked_m,
