@@ -6,7 +6,7 @@
 
 #include "planner/geometry/footprint.hpp"
 #include "planner/right_of_way/grant.hpp"
-#include "planner/road/driving_line.hpp"
+#include "planner/road/reference_path.hpp"
 
 namespace hlc::controller {
 namespace {

@@ -18,7 +18,8 @@ namespace hlc::controller {
 ///
 /// The end of the authority is a limit of planning, on top of everything that keeps plans apart:
 /// whatever the others hold or announce, no plan meets another's. It is never in front of the end
-/// of the plan in force, so the plan in force, continued, always keeps to it.
+/// of the plan in force. A car that stands askew in a bend may reach into the bar behind the end;
+/// it then finds no plan until more is granted to it.
 class Authority {
  public:
   explicit Authority(std::shared_ptr<const right_of_way::ConflictMap> map);
@@ -33,9 +34,9 @@ class Authority {
   /// Whether a claim of the vehicle has ever been received.
   [[nodiscard]] bool knows(VehicleId vehicle) const { return known_.contains(vehicle); }
 
-  /// Takes what is granted to this vehicle, given what all others hold. A silent vehicle may have
-  /// taken everything that can have been granted to it since its last message: it holds a
-  /// look-ahead, and in each step of silence the length of a step more.
+  /// Takes what is granted to this vehicle, given what all others hold. A silent vehicle is
+  /// assumed to hold a look-ahead, and in each step of silence the length of a step more: less than
+  /// it may, if it has been granted a stretch that ends farther on.
   /// @param others     of which a claim on the same map has been received in this step
   /// @param silent     known vehicles that were not received in this step
   /// @param blocked_m  areas of others that hold nothing

@@ -20,8 +20,8 @@ std::vector<Point> contouring(const road::ReferencePath& path, std::span<const d
   contouring.reserve(s_m.size());
   for (const double s : s_m) {
     // The direction of a single segment would jump at the joints.
-    const Point chord = path.at(s + kHalfChord_m) - path.at(s - kHalfChord_m);
-    contouring.push_back(std::sqrt(weight) * Point(-chord.y(), chord.x()).normalized());
+    const double heading_rad = road::chord_heading_rad(path, s, kHalfChord_m);
+    contouring.push_back(std::sqrt(weight) * Point(-std::sin(heading_rad), std::cos(heading_rad)));
   }
   return contouring;
 }

@@ -45,7 +45,7 @@ struct Traffic {
   /// Vehicles from which the sender received nothing for several steps. A vehicle that is listed
   /// keeps its running plan: the sender may soon consider it a standing obstacle (missing.hpp).
   std::vector<VehicleId> silent;
-  /// As of the end of the last step. Absent: the run has no right of way.
+  /// Place at t(k), authority as of the end of the last step. Absent: the run has no right of way.
   std::optional<LaneClaim> claim{};
 };
 

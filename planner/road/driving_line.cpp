@@ -100,18 +100,6 @@ std::vector<double> smoothed(const std::vector<double>& values) {
 
 }  // namespace
 
-double chord_heading_rad(const ReferencePath& path, double s_m, double half_chord_m) {
-  const Point chord_m = path.at(s_m + half_chord_m) - path.at(s_m - half_chord_m);
-  return std::atan2(chord_m.y(), chord_m.x());
-}
-
-double chord_curvature_per_m(const ReferencePath& path, double s_m, double chord_m) {
-  const double half_m = chord_m / 2.0;
-  const double turned_rad =
-      chord_heading_rad(path, s_m + half_m, half_m) - chord_heading_rad(path, s_m - half_m, half_m);
-  return wrap_angle(turned_rad) / chord_m;
-}
-
 DrivingLine::DrivingLine(std::vector<double> left_m, double length_m)
     : left_m_(std::move(left_m)), length_m_(length_m) {
   HLC_DEMAND(!left_m_.empty() && length_m > 0.0, left_m_.size(), length_m);

@@ -25,12 +25,6 @@ class DrivingLine {
   double length_m_{};
 };
 
-/// Direction of the path at arc length s, from the chord `half_chord_m` to either side: that of a
-/// single segment jumps at the joints. [rad]
-[[nodiscard]] double chord_heading_rad(const ReferencePath& path, double s_m, double half_chord_m);
-/// Change of direction per arc length, from two chords of that length. [1/m]
-[[nodiscard]] double chord_curvature_per_m(const ReferencePath& path, double s_m, double chord_m);
-
 /// Lines that leave room between two cars side by side. Lanes of the lab are 0.150 m wide, a car
 /// 0.107 m: 0.043 m between two footprints, of which 0.020 m are the safety margins, and in a
 /// curvature kappa the corners of a car of length l reach l^2 / 8 * kappa farther out. Towards a

@@ -137,4 +137,16 @@ bool drives_again(const ReferencePath& path, double first_s_m, double second_s_m
          (path.at(first_s_m) - path.at(second_s_m)).norm() < kSameLane_m;
 }
 
+double chord_heading_rad(const ReferencePath& path, double s_m, double half_chord_m) {
+  const Point chord_m = path.at(s_m + half_chord_m) - path.at(s_m - half_chord_m);
+  return std::atan2(chord_m.y(), chord_m.x());
+}
+
+double chord_curvature_per_m(const ReferencePath& path, double s_m, double chord_m) {
+  const double half_m = chord_m / 2.0;
+  const double turned_rad =
+      chord_heading_rad(path, s_m + half_m, half_m) - chord_heading_rad(path, s_m - half_m, half_m);
+  return wrap_angle(turned_rad) / chord_m;
+}
+
 }  // namespace hlc::road

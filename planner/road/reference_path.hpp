@@ -60,4 +60,10 @@ inline constexpr double kSameLane_m = 0.01;
 /// apart along the path. @pre both arc lengths are on the path
 [[nodiscard]] bool drives_again(const ReferencePath& path, double first_s_m, double second_s_m);
 
+/// Direction of the path at arc length s, from the chord `half_chord_m` to either side: that of a
+/// single segment jumps at the joints. [rad]
+[[nodiscard]] double chord_heading_rad(const ReferencePath& path, double s_m, double half_chord_m);
+/// Change of direction per arc length, from two chords of that length. [1/m]
+[[nodiscard]] double chord_curvature_per_m(const ReferencePath& path, double s_m, double chord_m);
+
 }  // namespace hlc::road
