@@ -27,8 +27,11 @@ class ExperimentStart {
 
   /// To be called before a list is answered. Only a controller that drives sends traffic, so the
   /// experiment is running if another active vehicle's traffic is of about this time. Traffic of
-  /// inactive vehicles, or of another time, is not evidence.
-  void join_if_others_drive(const controller::Observation& observation);
+  /// inactive vehicles, or of another time, is not evidence. Without a lab control it is not
+  /// joined: a controller that has never seen one could not miss it (LabControlWatch), and nobody
+  /// could stop its vehicle.
+  /// @return true the first time that it is not joined for that reason
+  bool join_if_others_drive(const controller::Observation& observation, bool has_lab_control);
 
   /// next_start of the trigger; for an experiment that was already running, a time since which it
   /// runs.
@@ -51,6 +54,7 @@ class ExperimentStart {
   std::map<VehicleId, StepIndex> newest_traffic_;
   std::optional<Nanoseconds> time_;
   bool is_inferred_{};  ///< from the others' traffic
+  bool was_kept_out_{};
   std::optional<StepIndex> first_step_;
 };
 

@@ -171,7 +171,9 @@ void HlcMachine::enter_experiment() {
   const bool had_begun = core_.has_begun();
   if (!had_begun) {
     core_.note(list, observation);
-    start_.join_if_others_drive(observation);
+    if (start_.join_if_others_drive(observation, life_.has_stop_request_readers())) {
+      actions_.warn("the others drive, but no lab control could stop this vehicle; not joining");
+    }
   }
   step_.advance_to(observation.step);
   current_.is_running =

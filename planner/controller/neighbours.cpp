@@ -41,8 +41,17 @@ void Neighbours::receive(std::span<const coordination::Traffic> traffic,
     traffic_[other] = *message;  // over the former one: as many areas again
     last_received_[other] = now_;
   }
+  forget_if_steps_are_missing();
   update_liveness(observation);
   update_standstill(observation);
+}
+
+void Neighbours::forget_if_steps_are_missing() {
+  const bool is_gap = last_looked_ && now_.value > last_looked_->value + 1;
+  last_looked_ = now_;
+  if (!is_gap) return;
+  last_sign_of_life_.clear();
+  last_not_standing_.clear();
 }
 
 bool Neighbours::is_received(VehicleId vehicle) const {

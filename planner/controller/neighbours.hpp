@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,7 +54,8 @@ class Neighbours {
   [[nodiscard]] std::vector<VehicleId> silent(std::span<const VehicleId> active);
 
   /// Takes this step's traffic; messages of other steps or senders and malformed ones are ignored.
-  /// Updates liveness and standstill.
+  /// Updates liveness and standstill. In steps that were left out nobody was looked at: a vehicle
+  /// may have driven and been received meanwhile.
   void receive(std::span<const coordination::Traffic> traffic, const Observation& observation);
 
   /// Received in this step, sorted by vehicle.
@@ -69,6 +71,7 @@ class Neighbours {
   [[nodiscard]] bool stands_for_good(VehicleId vehicle, std::size_t horizon_steps) const;
 
  private:
+  void forget_if_steps_are_missing();
   void update_liveness(const Observation& observation);
   void update_standstill(const Observation& observation);
   [[nodiscard]] bool is_received(VehicleId vehicle) const;
@@ -79,6 +82,7 @@ class Neighbours {
   VehicleId own_;
   coordination::MissingVehicleRules rules_;
   StepIndex now_;
+  std::optional<StepIndex> last_looked_;  ///< last step of `receive`
   /// The last of each; of this step only if its step matches
   std::map<VehicleId, coordination::Traffic> traffic_;
   std::vector<VehicleId> missing_;

@@ -56,6 +56,26 @@ TEST_F(Announced, TheLastPlanCountsAndTheOneBeforeSinceACommandMayBeLost) {
   EXPECT_EQ(violations_.size(), 1U);
 }
 
+TEST_F(Announced, APlanWhoseControllerDiesBeforeItsReportMayBeDriven) {
+  publish(0, 0.0);
+  check_.predicted({.vehicle = kCar, .step = {0}, .areas = stands_at(1, 0.5)});
+  check_.controller_died(kCar);
+  drive(0.5, kAnnouncedPeriod, 10 * kAnnouncedPeriod);
+  drive(0.0, 10 * kAnnouncedPeriod, 20 * kAnnouncedPeriod);
+  EXPECT_TRUE(violations_.empty());
+  drive(1.0, 20 * kAnnouncedPeriod, 25 * kAnnouncedPeriod);
+  EXPECT_EQ(violations_.size(), 1U);
+}
+
+TEST_F(Announced, APlanThatWasPredictedAndDidNotComeIntoForceIsNotDriven) {
+  publish(0, 0.0);
+  check_.predicted({.vehicle = kCar, .step = {0}, .areas = stands_at(1, 0.5)});
+  check_.reported({.vehicle = kCar, .step = {0}, .status = coordination::StepStatus::kFallback}, 0);
+  check_.controller_died(kCar);
+  drive(0.5, kAnnouncedPeriod, 10 * kAnnouncedPeriod);
+  EXPECT_EQ(violations_.size(), 1U);
+}
+
 TEST_F(Announced, AVehicleStandsWhenItsLastPlanHasRunOut) {
   publish(0, 0.0);
   agree(0, 0.0);

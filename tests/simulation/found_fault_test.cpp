@@ -243,5 +243,55 @@ TEST(FoundFault, Seed22554WhereAVehicleIsAfterwardsNobodyKnowsUntilItIsSeen) {
   EXPECT_GT(result.unreachable, 0U);
 }
 
+/// A controller that stood still for 4 s took another vehicle, which it had last seen standing and
+/// saw standing again, for one that stood for good, and planned without its traffic.
+TEST(FoundFault, Seed2667WhileAControllerStandsStillItSeesNobodyStanding) {
+  const auto cut = [](std::uint8_t from, std::uint8_t to, Nanoseconds begin) {
+    return Fault{.kind = FaultKind::kCut,
+                 .begin = begin,
+                 .end = 7'000 * kMs,
+                 .process = controller_name(from),
+                 .peer = controller_name(to)};
+  };
+  run(circle(3), {.seed = 2667, .transport = Transport::kLoopback},
+      {cut(1, 3, 707'228'114),
+       {.kind = FaultKind::kFreeze,
+        .begin = 2'774'210'893,
+        .end = 7'000 * kMs,
+        .process = controller_name(2)},
+       cut(2, 1, 2'774'210'893),
+       cut(2, 3, 2'774'210'893)});
+}
+
+/// A controller that was started again joined the others while the lab control was dead. It had
+/// never seen one, so it missed none, and drove on when all others had stopped.
+TEST(FoundFault, Seed3148NobodyJoinsWithoutALabControl) {
+  run(paper(5, 0x77bac0cead8ce0c4), {.seed = 3148, .transport = Transport::kLoopback},
+      {{.kind = FaultKind::kKill,
+        .begin = 6'084'265'189,
+        .end = 11'496'666'568,
+        .process = kLabControlName},
+       {.kind = FaultKind::kKill,
+        .begin = 6'182'317'613,
+        .end = 6'789'574'218,
+        .process = controller_name(2)}});
+}
+
+/// A controller died between a command and its report: its vehicle drives the new plan, and nobody
+/// has learned that it came into force.
+TEST(FoundFault, Seed4412APlanMayBeDrivenWithoutAReport) {
+  run(paper(4, 0x4a5b96c37bf6c527), {.seed = 4412, .transport = Transport::kLoopback},
+      {{.kind = FaultKind::kWithhold,
+        .begin = 5'974'917'108,
+        .end = 9'379'567'598,
+        .process = controller_name(2),
+        .peer = controller_name(1),
+        .share = 1.0},
+       {.kind = FaultKind::kKill,
+        .begin = 6'841'370'936,
+        .end = 6'968'980'098,
+        .process = controller_name(1)}});
+}
+
 }  // namespace
 }  // namespace hlc::closed_loop

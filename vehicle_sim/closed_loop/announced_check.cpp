@@ -15,12 +15,19 @@ void AnnouncedCheck::published(const coordination::Traffic& traffic, bool is_see
 
 void AnnouncedCheck::reported(const coordination::Report& report, Nanoseconds at) {
   Car& car = cars_[report.vehicle];
-  if (report.status != coordination::StepStatus::kPlanned) return;
-  car.last_plan = at;
-  if (car.predicted && car.predicted->step == report.step) {
-    car.before = car.agreed ? std::move(car.agreed) : car.running;
-    car.agreed = std::move(car.predicted->areas);
+  if (report.status != coordination::StepStatus::kPlanned) {
+    car.predicted.reset();
+    return;
   }
+  car.last_plan = at;
+  if (car.predicted && car.predicted->step == report.step) adopt(car);
+  car.predicted.reset();
+}
+
+/// The plan that has been predicted last may be driven.
+void AnnouncedCheck::adopt(Car& car) {
+  car.before = car.agreed ? std::move(car.agreed) : car.running;
+  car.agreed = std::move(car.predicted->areas);
   car.predicted.reset();
 }
 

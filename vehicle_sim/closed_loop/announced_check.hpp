@@ -36,6 +36,12 @@ class AnnouncedCheck {
     cars_[prediction.vehicle].predicted = prediction;
   }
   void reported(const coordination::Report& report, Nanoseconds at);
+  /// Before its report nobody knows whether its last prediction came into force: it may have been
+  /// commanded.
+  void controller_died(VehicleId vehicle) {
+    Car& car = cars_[vehicle];
+    if (car.predicted) adopt(car);
+  }
   /// @param tick  its time
   void driven(VehicleId vehicle, Nanoseconds tick, const Pose& pose, double speed_mps,
               Violations& violations);
@@ -68,6 +74,7 @@ class AnnouncedCheck {
     bool runs_on{};
   };
 
+  static void adopt(Car& car);
   [[nodiscard]] bool is_inside(const Car& car, StepIndex step, const Pose& pose) const;
   void check_area(VehicleId vehicle, Car& car, Nanoseconds tick, const Pose& pose,
                   Violations& violations) const;

@@ -70,6 +70,13 @@ class DrivenPlans {
   void died(VehicleId vehicle, Nanoseconds at);
   /// Another controller of the vehicle begins.
   void controller_started(VehicleId vehicle) { cars_[vehicle].is_seen = true; }
+  /// Before its report nobody knows which plan it has commanded.
+  void controller_died(VehicleId vehicle) {
+    Car& car = cars_[vehicle];
+    for (Sent& sent : car.sent) {
+      if (!sent.plan) sent.plan = std::make_shared<const Agreed>(Agreed{.number = car.num_agreed});
+    }
+  }
   /// Its controller's process has ended or is suspended. @param at  true time
   void controller_stopped(VehicleId vehicle, Nanoseconds at) {
     Car& car = cars_[vehicle];

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "hlc_bridge/messages/node_names.hpp"
 #include "vehicle_sim/closed_loop/run_monitor.hpp"
 #include "vehicle_sim/closed_loop/simulated_lab.hpp"
 
@@ -165,9 +166,18 @@ class FaultRun {
       const bool is_complete = std::ranges::all_of(lab_.slots(), [id](const ProcessSlot& one) {
         return one.key.vehicle != id || one.process;
       });
-      if (slot.key.role == Role::kVehicle && is_complete) able.push_back(id);
+      const bool waits_for_start = is_lab_control_killed() && monitor_.is_on_standby(id);
+      if (slot.key.role == Role::kVehicle && is_complete && !waits_for_start) able.push_back(id);
     }
     return able;
+  }
+
+  /// The next one starts nothing before all have come back: whose controller returned in between
+  /// has no lab control and waits for that start.
+  [[nodiscard]] bool is_lab_control_killed() const {
+    return std::ranges::any_of(settings_.faults, [](const Fault& fault) {
+      return fault.kind == FaultKind::kKill && fault.process == kLabControlName;
+    });
   }
 
   /// Nobody begins if the start trigger is lost for good.

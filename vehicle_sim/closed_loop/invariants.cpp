@@ -191,6 +191,11 @@ void PlanningCheck::report(const ReportRecord& record, Nanoseconds at) {
   const coordination::Report& report = record.report;
   last_[report.vehicle.value] = std::string(coordination::to_string(report.status)) + ", " +
                                 coordination::to_string(report.reason);
+  if (report.status == coordination::StepStatus::kStandby) {
+    standby_.insert(report.vehicle.value);
+  } else {
+    standby_.erase(report.vehicle.value);
+  }
   if (at < calm_from_) return;
   const bool cannot = report.reason == coordination::FallbackReason::kInfeasible ||
                       report.reason == coordination::FallbackReason::kConflict ||

@@ -171,6 +171,9 @@ class PlanningCheck {
   explicit PlanningCheck(Nanoseconds calm_from) : calm_from_(calm_from) {}
 
   void report(const ReportRecord& record, Nanoseconds at);
+  [[nodiscard]] bool is_on_standby(std::uint8_t vehicle) const {
+    return standby_.contains(vehicle);
+  }
   /// To be called at calm_from + kPatience.
   /// @param able  vehicles whose processes are all there
   void check(const std::vector<std::uint8_t>& able, Nanoseconds at, Violations& violations) const;
@@ -178,6 +181,7 @@ class PlanningCheck {
  private:
   Nanoseconds calm_from_;
   std::map<std::uint8_t, std::string> last_;  ///< what it reported last
+  std::set<std::uint8_t> standby_;            ///< in its last report
   std::map<std::uint8_t, bool> plans_;
 };
 

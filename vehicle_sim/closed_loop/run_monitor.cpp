@@ -139,6 +139,10 @@ void RunMonitor::held_up(const ProcessSlot& slot) {
 
 void RunMonitor::killed(const ProcessSlot& slot) {
   if (slot.key.role == Role::kLabControl) lab_control_died_ = lab_->true_time();
+  if (slot.key.role == Role::kController) {
+    driven_.controller_died({slot.key.vehicle});
+    announced_.controller_died({slot.key.vehicle});
+  }
   if (slot.key.role != Role::kVehicle || slot.process) return;
   footprints_.died(slot.key.vehicle, DrivenPlans::kAfterwards / kVehiclePeriod);
   const Nanoseconds tick = last_[slot.key.vehicle].tick;

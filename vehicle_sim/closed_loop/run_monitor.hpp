@@ -66,6 +66,10 @@ class RunMonitor final : public RunObserver {
 
   /// Somebody has planned.
   [[nodiscard]] bool has_begun() const { return result_.planned > 0; }
+  /// By its controller's last report.
+  [[nodiscard]] bool is_on_standby(std::uint8_t vehicle) const {
+    return planning_.is_on_standby(vehicle);
+  }
   [[nodiscard]] std::optional<Pose> pose_of(std::uint8_t vehicle) const;
   [[nodiscard]] FaultRunResult result();
 

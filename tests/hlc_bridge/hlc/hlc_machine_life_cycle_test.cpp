@@ -225,6 +225,26 @@ TEST(HlcMachineStart, JoinsARunningExperimentOnceItsVehicleStands) {
   }));
 }
 
+TEST(HlcMachineStart, DoesNotJoinWithoutALabControlThatCouldStopIt) {
+  DrivenMachine one(real_time());
+  const std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
+  HlcPeers without_lab_control = peers();
+  without_lab_control.stop_request_readers = 0;
+  one.on(without_lab_control);
+  stand(one, both);
+  const auto next_list = [&] {
+    one.on(traffic_of(2, one.step() + 1));
+    one.next_list(both);
+    one.pass(kPeriod / 2);
+  };
+  for (int i = 0; i < 5; ++i) next_list();
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kStandby);
+  EXPECT_TRUE(one.has_logged("no lab control could stop this vehicle"));
+  one.on(peers());
+  for (int i = 0; i < 2; ++i) next_list();
+  EXPECT_TRUE(one.has_logged("joining the running experiment"));
+}
+
 TEST(HlcMachineStart, JoinsARunningExperimentByWhatTheLabControlSays) {
   DrivenMachine one(real_time());
   one.on(peers());

@@ -82,5 +82,16 @@ TEST_F(NeighboursTest, WhoIsSilentButReceivedByAnotherNeverStandsForGood) {
   EXPECT_TRUE(neighbours_.stands_for_good({2}, kHorizon));
 }
 
+TEST_F(NeighboursTest, StepsInWhichNobodyWasLookedAtShowNobodyStanding) {
+  for (int i = 0; i < 20; ++i) step({3});
+  now_.value += 20;  // the own process did not run
+  step({});
+  EXPECT_FALSE(neighbours_.stands_for_good({2}, kHorizon));
+  EXPECT_FALSE(neighbours_.stands_for_good({3}, kHorizon));
+  for (int i = 0; i < 20; ++i) step({});
+  EXPECT_TRUE(neighbours_.stands_for_good({2}, kHorizon));
+  EXPECT_TRUE(neighbours_.stands_for_good({3}, kHorizon));
+}
+
 }  // namespace
 }  // namespace hlc::controller::neighbours_test
