@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "planner/geometry/footprint.hpp"
-#include "planner/right_of_way/grant.hpp"
 #include "planner/road/reference_path.hpp"
 
 namespace hlc::controller {
@@ -52,7 +51,7 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
 }
 
 void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
-                       std::span<const VehicleId> silent, std::span<const ConvexPolygon> blocked_m,
+                       std::span<const VehicleId> silent, std::span<const right_of_way::Blocked> blocked,
                        double step_m) {
   std::vector<right_of_way::Holder> holders{{own, claim_}};
   for (const coordination::Traffic* other : others) {
@@ -64,10 +63,12 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
     claim.ahead_m = std::max(claim.ahead_m, kLookAhead_m) + step_m;
     holders.push_back({other, claim});
   }
-  const std::vector<double> ahead_m = right_of_way::grant(*map_, holders, blocked_m, kLookAhead_m);
+  const std::vector<double> ahead_m = right_of_way::grant(*map_, holders, blocked, kLookAhead_m);
   for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
   claim_.ahead_m = ahead_m.front();
-  if (claim_.ahead_m < kOpen_m) withheld_by_ = right_of_way::withheld_by(*map_, holders, 0);
+  if (claim_.ahead_m < kOpen_m) {
+    withheld_by_ = right_of_way::withheld_by(*map_, holders, blocked, 0);
+  }
 }
 
 double Authority::end_s_m(double s_m) const {

@@ -10,6 +10,7 @@
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/plan.hpp"
 #include "planner/right_of_way/conflict_map.hpp"
+#include "planner/right_of_way/grant.hpp"
 
 namespace hlc::controller {
 
@@ -39,13 +40,13 @@ class Authority {
   /// it may, if it has been granted a stretch that ends farther on.
   /// @param others     of which a claim on the same map has been received in this step
   /// @param silent     known vehicles that were not received in this step
-  /// @param blocked_m  areas of others that hold nothing
+  /// @param blocked    areas of others that hold nothing, those of one vehicle together
   /// @param step_m     the longest way of a vehicle in a step
   void extend(VehicleId own, std::span<const coordination::Traffic* const> others,
-              std::span<const VehicleId> silent, std::span<const ConvexPolygon> blocked_m,
+              std::span<const VehicleId> silent, std::span<const right_of_way::Blocked> blocked,
               double step_m);
 
-  /// Vehicles that hold what would be granted next, if the end limits planning. @pre extend
+  /// Vehicles that hold or block what would be granted next, if the end limits planning. @pre extend
   [[nodiscard]] const std::vector<VehicleId>& withheld_by() const { return withheld_by_; }
 
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.

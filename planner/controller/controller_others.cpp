@@ -37,18 +37,18 @@ MissingVehicle Controller::missing_vehicle(VehicleId other) const {
 void Controller::extend_authority() {
   if (!authority_) return;
   const automaton::UniversalAutomaton& automaton = subgraph().automaton();
-  std::vector<ConvexPolygon> blocked_m;
+  std::vector<right_of_way::Blocked> blocked;
   std::vector<VehicleId> silent;
   for (const VehicleId other : neighbours_.missing()) {
     const coordination::MeasuredVehicle* const measured = step_.observation.measured(other);
     if (measured != nullptr && neighbours_.stands_for_good(other, options_.horizon_steps)) {
-      blocked_m.push_back(coordination::standing_area(*measured, neighbours_.rules()));
+      blocked.push_back({other, coordination::standing_area(*measured, neighbours_.rules())});
     } else if (authority_->knows(other)) {
       silent.push_back(other);
     } else if (measured != nullptr) {
-      blocked_m.push_back(coordination::reachable_disc(
-          *measured, static_cast<double>(options_.horizon_steps + 1) * automaton.step_s,
-          neighbours_.rules()));
+      const double horizon_s = static_cast<double>(options_.horizon_steps + 1) * automaton.step_s;
+      blocked.push_back(
+          {other, coordination::reachable_disc(*measured, horizon_s, neighbours_.rules())});
     } else {
       return;  // it may be anywhere
     }
@@ -59,11 +59,12 @@ void Controller::extend_authority() {
       holders.push_back(traffic);
       continue;
     }
-    blocked_m.insert(blocked_m.end(), traffic->running.areas_m.begin(),
-                     traffic->running.areas_m.end());
-    blocked_m.push_back(traffic->running.final_area_m);
+    for (const ConvexPolygon& area_m : traffic->running.areas_m) {
+      blocked.push_back({traffic->vehicle, area_m});
+    }
+    blocked.push_back({traffic->vehicle, traffic->running.final_area_m});
   }
-  authority_->extend(options_.vehicle, holders, silent, blocked_m,
+  authority_->extend(options_.vehicle, holders, silent, blocked,
                      neighbours_.rules().max_speed_mps * automaton.step_s);
 }
 

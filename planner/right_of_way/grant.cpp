@@ -13,9 +13,8 @@ using CellNumber = std::int64_t;  ///< counted on over the end of a route
 
 class Grants {
  public:
-  Grants(const ConflictMap& map, std::span<const Holder> holders,
-         std::span<const ConvexPolygon> blocked_m)
-      : map_(map), holders_(holders), blocked_m_(blocked_m) {
+  Grants(const ConflictMap& map, std::span<const Holder> holders, std::span<const Blocked> blocked)
+      : map_(map), holders_(holders), blocked_(blocked) {
     for (const Holder& holder : holders) ahead_m_.push_back(holder.claim.ahead_m);
   }
 
@@ -41,13 +40,27 @@ class Grants {
            last - first < static_cast<CellNumber>(map_.num_cells(claim.route))) {
       ++last;
     }
+    const auto is_any = [&](const auto& withholds) {
+      for (CellNumber cell = first; cell <= last; ++cell) {
+        if (withholds(on_route(claim.route, cell))) return true;
+      }
+      return false;
+    };
     std::vector<VehicleId> vehicles;
     for (std::size_t other = 0; other < holders_.size(); ++other) {
-      bool holds_any = false;
-      for (CellNumber cell = first; cell <= last && other != who; ++cell) {
-        holds_any = holds_any || is_held_by(other, claim.route, on_route(claim.route, cell));
+      if (other != who && is_any([&](std::size_t cell) {
+            return is_held_by(other, claim.route, cell);
+          })) {
+        vehicles.push_back(holders_[other].vehicle);
       }
-      if (holds_any) vehicles.push_back(holders_[other].vehicle);
+    }
+    for (const Blocked& one : blocked_) {
+      const bool is_named = !vehicles.empty() && vehicles.back() == one.vehicle;
+      if (!is_named && is_any([&](std::size_t cell) {
+            return intersects(map_.area_m(claim.route, cell), one.area_m);
+          })) {
+        vehicles.push_back(one.vehicle);
+      }
     }
     return vehicles;
   }
@@ -79,7 +92,7 @@ class Grants {
     }
     const ConvexPolygon& area_m = map_.area_m(route, cell);
     return std::ranges::none_of(
-        blocked_m_, [&](const ConvexPolygon& blocked) { return intersects(area_m, blocked); });
+        blocked_, [&](const Blocked& one) { return intersects(area_m, one.area_m); });
   }
 
   /// Whether the other vehicle holds a cell that overlaps this one.
@@ -99,14 +112,14 @@ class Grants {
 
   const ConflictMap& map_;
   std::span<const Holder> holders_;
-  std::span<const ConvexPolygon> blocked_m_;
+  std::span<const Blocked> blocked_;
   std::vector<double> ahead_m_;
 };
 
 }  // namespace
 
 std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holders,
-                          std::span<const ConvexPolygon> blocked_m, double look_ahead_m) {
+                          std::span<const Blocked> blocked, double look_ahead_m) {
   std::vector<std::size_t> order(holders.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
@@ -116,14 +129,14 @@ std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holder
     };
     return key(a) < key(b);
   });
-  Grants grants(map, holders, blocked_m);
+  Grants grants(map, holders, blocked);
   for (const std::size_t who : order) grants.extend(who, look_ahead_m);
   return grants.ahead_m();
 }
 
 std::vector<VehicleId> withheld_by(const ConflictMap& map, std::span<const Holder> holders,
-                                   std::size_t who) {
-  return Grants(map, holders, {}).withheld_by(who);
+                                   std::span<const Blocked> blocked, std::size_t who) {
+  return Grants(map, holders, blocked).withheld_by(who);
 }
 
 }  // namespace hlc::right_of_way

@@ -15,12 +15,18 @@ struct Holder {
   coordination::LaneClaim claim;
 };
 
+/// An area of a vehicle that holds no cells: off the road, or without a controller.
+struct Blocked {
+  VehicleId vehicle;
+  ConvexPolygon area_m;
+};
+
 /// How far every vehicle's authority reaches after all that can be granted has been: the ends of
 /// `holders`, from their places [m], in the same order.
 ///
 /// The vehicle that has waited longest comes first, then the smaller id. Its authority is extended
 /// cell by cell, up to `look_ahead_m` from its place, while the next cell overlaps no cell that
-/// another vehicle holds and nothing that is blocked; a stretch of conflict cells only as a whole,
+/// another vehicle holds and nothing that one blocks; a stretch of conflict cells only as a whole,
 /// with the first cell behind it that is none. Behind a vehicle ahead it ends at that one's
 /// present place, not where it is going to be.
 ///
@@ -31,14 +37,13 @@ struct Holder {
 /// What this is for: no vehicle ever stops in a cell that a vehicle of another lane needs. That no
 /// state without a way on is reached is measured, not proven: vehicles may still wait for each
 /// other around a circle of full lanes.
-/// @param blocked_m  areas of what holds no cells: vehicles off the road or without a controller
 [[nodiscard]] std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holders,
-                                        std::span<const ConvexPolygon> blocked_m,
-                                        double look_ahead_m);
+                                        std::span<const Blocked> blocked, double look_ahead_m);
 
-/// The vehicles that hold cells of what would be granted next to the vehicle with this index, in
-/// the order of `holders`.
+/// The vehicles that hold or block cells of what would be granted next to the vehicle with this
+/// index, in the order of `holders`, then of `blocked`.
 [[nodiscard]] std::vector<VehicleId> withheld_by(const ConflictMap& map,
-                                                 std::span<const Holder> holders, std::size_t who);
+                                                 std::span<const Holder> holders,
+                                                 std::span<const Blocked> blocked, std::size_t who);
 
 }  // namespace hlc::right_of_way

@@ -1,7 +1,11 @@
 #include "planner/scenario/right_of_way.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "planner/road/driving_line.hpp"
@@ -16,6 +20,29 @@ std::uint32_t number_of(const road::ReferencePath& path, std::vector<road::Driva
   const auto number = static_cast<std::uint32_t>(found - routes.begin());
   if (found == routes.end()) routes.push_back({.name = {}, .path = path, .corridor = {}});
   return number;
+}
+
+bool has_refuge(const right_of_way::ConflictMap& map, std::size_t route) {
+  for (std::size_t cell = 0; cell < map.num_cells(route); ++cell) {
+    if (!map.is_conflict(route, cell)) return true;
+  }
+  return false;
+}
+
+/// A car on a route without a refuge would have to be granted all of it at once.
+void demand_refuges(const Scenario& scenario) {
+  const auto demand = [&](std::uint32_t route, const std::string& whose) {
+    if (has_refuge(*scenario.conflicts, route)) return;
+    throw std::invalid_argument(
+        fmt::format("{}: right_of_way: the route of {} must have a place where a car may wait; all "
+                    "of it crosses or meets other routes",
+                    scenario.file.string(), whose));
+  };
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    demand(vehicle.route_number,
+           fmt::format("vehicle {} ({})", int{vehicle.id.value}, vehicle.name));
+  }
+  for (const road::DrivableRoute& route : scenario.routes) demand(route.number, route.name);
 }
 
 }  // namespace
@@ -38,6 +65,7 @@ void relate_routes(Scenario& scenario) {
     vehicle.driving_line = lines[vehicle.route_number];
   }
   scenario.conflicts = std::make_shared<const right_of_way::ConflictMap>(routes, parameters);
+  demand_refuges(scenario);
 }
 
 }  // namespace hlc::scenario

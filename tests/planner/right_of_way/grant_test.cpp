@@ -53,8 +53,8 @@ bool ends_in_conflict(const ConflictMap& map, const Holder& holder) {
 }
 
 std::vector<Holder> granted(const ConflictMap& map, std::vector<Holder> holders,
-                            std::span<const ConvexPolygon> blocked_m = {}) {
-  const std::vector<double> ahead_m = grant(map, holders, blocked_m, kLookAhead_m);
+                            std::span<const Blocked> blocked = {}) {
+  const std::vector<double> ahead_m = grant(map, holders, blocked, kLookAhead_m);
   for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
   return holders;
 }
@@ -137,16 +137,18 @@ TEST(Grant, NothingIsTakenBeyondTheLookAheadButTheRestOfAStretch) {
   EXPECT_GT(beyond, 10U);
 }
 
-TEST(Grant, BlockedAreasAreNotEntered) {
+TEST(Grant, BlockedAreasAreNotEnteredAndTheirVehiclesAreNamed) {
   std::size_t shorter = 0;
+  std::size_t named = 0;
   for_random_holders([&](const ConflictMap& map, const std::vector<Holder>& before, auto& random) {
-    std::vector<ConvexPolygon> blocked_m;
+    std::vector<Blocked> blocked;
     std::uniform_real_distribution<double> anywhere(0.0, 4.0);
-    for (int i = 0; i < 8; ++i) {
-      blocked_m.push_back(
-          footprint_area(kCar.footprint, {anywhere(random), anywhere(random), anywhere(random)}));
+    for (std::uint8_t i = 0; i < 8; ++i) {
+      const Pose pose{anywhere(random), anywhere(random), anywhere(random)};
+      blocked.push_back({{static_cast<std::uint8_t>(101 + i)},
+                         footprint_area(kCar.footprint, pose)});
     }
-    const std::vector<Holder> after = granted(map, before, blocked_m);
+    const std::vector<Holder> after = granted(map, before, blocked);
     const std::vector<Holder> unblocked = granted(map, before);
     for (std::size_t i = 0; i < after.size(); ++i) {
       shorter += after[i].claim.ahead_m < unblocked[i].claim.ahead_m ? 1U : 0U;
@@ -154,13 +156,20 @@ TEST(Grant, BlockedAreasAreNotEntered) {
           cells_of(map, after[i], before[i].claim.ahead_m, after[i].claim.ahead_m);
       taken.erase(taken.begin());  // held before
       for (const std::size_t cell : taken) {
-        for (const ConvexPolygon& blocked : blocked_m) {
-          EXPECT_FALSE(intersects(map.area_m(after[i].claim.route, cell), blocked));
+        for (const Blocked& one : blocked) {
+          EXPECT_FALSE(intersects(map.area_m(after[i].claim.route, cell), one.area_m));
         }
+      }
+      if (after[i].claim.ahead_m == before[i].claim.ahead_m &&
+          unblocked[i].claim.ahead_m > before[i].claim.ahead_m) {
+        const std::vector<VehicleId> by = withheld_by(map, after, blocked, i);
+        named += std::ranges::any_of(by, [](VehicleId one) { return one.value > 100; }) ? 1U : 0U;
+        EXPECT_FALSE(by.empty());
       }
     }
   });
   EXPECT_GT(shorter, 10U);
+  EXPECT_GT(named, 10U);
 }
 
 TEST(Grant, TheOrderOfTheInputDoesNotMatter) {

@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
 #include "planner/road/lap.hpp"
 #include "planner/rollout/rollout.hpp"
+#include "planner/scenario/right_of_way.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "planner/scenario/starts.hpp"
 #include "tests/support/folders.hpp"
@@ -43,6 +45,23 @@ TEST(LabCars, CandidatesAreTheAuthorsPathsFromNineOn) {
   }
   ASSERT_EQ(scenario.routes.size(), 7U);
   EXPECT_EQ(scenario.routes.front().name, "loop 1");
+}
+
+TEST(LabCars, ARouteOnWhichACarCouldWaitNowhereIsRefused) {
+  ScenarioChoices choices = lab_cars();
+  choices.cars = 2;
+  Scenario scenario = read_scenario(choices);
+  std::vector<Point> points_m = scenario.vehicles[0].path.points_m();
+  std::ranges::reverse(points_m);
+  scenario.vehicles[1].path = {points_m, true};
+  const std::string name = scenario.vehicles[0].name;
+  try {
+    relate_routes(scenario);
+    FAIL() << "the same lane in both directions";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("lab_cars.yaml: right_of_way: "),
+                                    HasSubstr("vehicle 1 (" + name + ")")));
+  }
 }
 
 TEST(LabCars, DrawsDifferentPathsWhoseStartsDoNotOverlap) {
