@@ -51,8 +51,8 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
 }
 
 void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
-                       std::span<const VehicleId> silent, std::span<const right_of_way::Blocked> blocked,
-                       double step_m) {
+                       std::span<const VehicleId> silent,
+                       std::span<const right_of_way::Blocked> blocked, double step_m) {
   std::vector<right_of_way::Holder> holders{{own, claim_}};
   for (const coordination::Traffic* other : others) {
     known_[other->vehicle] = other->claim.value();

@@ -46,7 +46,8 @@ class Authority {
               std::span<const VehicleId> silent, std::span<const right_of_way::Blocked> blocked,
               double step_m);
 
-  /// Vehicles that hold or block what would be granted next, if the end limits planning. @pre extend
+  /// Vehicles that hold or block what would be granted next, if the end limits planning. @pre
+  /// extend
   [[nodiscard]] const std::vector<VehicleId>& withheld_by() const { return withheld_by_; }
 
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.

@@ -33,34 +33,21 @@ class Grants {
   [[nodiscard]] const std::vector<double>& ahead_m() const { return ahead_m_; }
 
   [[nodiscard]] std::vector<VehicleId> withheld_by(std::size_t who) const {
-    const coordination::LaneClaim& claim = holders_[who].claim;
-    const CellNumber first = cell_of(claim.route, claim.place_m + ahead_m_[who]) + 1;
-    CellNumber last = first;
-    while (map_.is_conflict(claim.route, on_route(claim.route, last)) &&
-           last - first < static_cast<CellNumber>(map_.num_cells(claim.route))) {
-      ++last;
-    }
-    const auto is_any = [&](const auto& withholds) {
-      for (CellNumber cell = first; cell <= last; ++cell) {
-        if (withholds(on_route(claim.route, cell))) return true;
-      }
-      return false;
-    };
+    const std::size_t route = holders_[who].claim.route;
+    const std::vector<std::size_t> next = next_stretch(who);
     std::vector<VehicleId> vehicles;
     for (std::size_t other = 0; other < holders_.size(); ++other) {
-      if (other != who && is_any([&](std::size_t cell) {
-            return is_held_by(other, claim.route, cell);
-          })) {
+      const auto holds = [&](std::size_t cell) { return is_held_by(other, route, cell); };
+      if (other != who && std::ranges::any_of(next, holds)) {
         vehicles.push_back(holders_[other].vehicle);
       }
     }
     for (const Blocked& one : blocked_) {
+      const auto blocks = [&](std::size_t cell) {
+        return intersects(map_.area_m(route, cell), one.area_m);
+      };
       const bool is_named = !vehicles.empty() && vehicles.back() == one.vehicle;
-      if (!is_named && is_any([&](std::size_t cell) {
-            return intersects(map_.area_m(claim.route, cell), one.area_m);
-          })) {
-        vehicles.push_back(one.vehicle);
-      }
+      if (!is_named && std::ranges::any_of(next, blocks)) vehicles.push_back(one.vehicle);
     }
     return vehicles;
   }
@@ -72,6 +59,18 @@ class Grants {
   [[nodiscard]] std::size_t on_route(std::size_t route, CellNumber cell) const {
     const auto count = static_cast<CellNumber>(map_.num_cells(route));
     return static_cast<std::size_t>((cell % count + count) % count);
+  }
+
+  /// Cells that would be granted next, all of them or none.
+  [[nodiscard]] std::vector<std::size_t> next_stretch(std::size_t who) const {
+    const coordination::LaneClaim& claim = holders_[who].claim;
+    CellNumber cell = cell_of(claim.route, claim.place_m + ahead_m_[who]) + 1;
+    std::vector<std::size_t> cells{on_route(claim.route, cell)};
+    while (map_.is_conflict(claim.route, cells.back()) &&
+           cells.size() < map_.num_cells(claim.route)) {
+      cells.push_back(on_route(claim.route, ++cell));
+    }
+    return cells;
   }
 
   /// The cell where a stretch that begins with `first` ends, if all of it is free.
@@ -91,8 +90,8 @@ class Grants {
       if (other != who && is_held_by(other, route, cell)) return false;
     }
     const ConvexPolygon& area_m = map_.area_m(route, cell);
-    return std::ranges::none_of(
-        blocked_, [&](const Blocked& one) { return intersects(area_m, one.area_m); });
+    return std::ranges::none_of(blocked_,
+                                [&](const Blocked& one) { return intersects(area_m, one.area_m); });
   }
 
   /// Whether the other vehicle holds a cell that overlaps this one.
