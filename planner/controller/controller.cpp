@@ -6,6 +6,7 @@
 
 #include "planner/automaton/deviation.hpp"
 #include "planner/common/demand.hpp"
+#include "planner/controller/plan_end.hpp"
 #include "planner/controller/problem_alone.hpp"
 #include "planner/controller/self_loop.hpp"
 #include "planner/coordination/coupling.hpp"
@@ -297,6 +298,12 @@ void Controller::search_candidate() {
                                   .reachable_area_m = step_.traffic.reachable_area_m,
                                   .lab = options_.lab},
                                  step_.report);
+  if (authority_ && step_.candidate.plan &&
+      !ends_along_lane(*step_.candidate.plan, in_force_->base(), step_.next(), tracker_,
+                       reach_m())) {
+    step_.candidate.plan.reset();
+    step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
+  }
   step_.obstacle = step_.candidate.obstacle;
 }
 

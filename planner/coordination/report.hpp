@@ -18,7 +18,9 @@ enum class StepStatus : std::uint8_t {
 
 enum class FallbackReason : std::uint8_t {
   kNone,
-  kInfeasible,  ///< the search found that no plan exists
+  /// The search found that no plan exists, or, with right of way, its plan ends askew in the lane
+  /// (planner/controller/plan_end.hpp).
+  kInfeasible,
   /// The search exhausted its expansions before it found a plan; or, for a standing vehicle, the
   /// search of a way into its lanes (lane_entry.hpp) did so when it departed.
   kBudget,
