@@ -24,10 +24,12 @@ LogicalRun::LogicalRun(LabRunSettings run_settings)
 }
 
 void LogicalRun::ready(const ReadyStatus& status) {
-  if (ticks_.waits_for_released(status.source_id, status.next_start)) {
-    send_again_ = true;
-  } else if (ticks_.request(status.source_id, status.next_start)) {
-    note_progress();
+  for (const std::string& timer : process_names(status.source_id)) {
+    if (ticks_.waits_for_released(timer, status.next_start)) {
+      send_again_ = true;
+    } else if (ticks_.request(timer, status.next_start)) {
+      note_progress();
+    }
   }
 }
 

@@ -15,6 +15,7 @@ simulated_vehicle::VehicleMachineOptions machine_options(const VehicleProcessOpt
           .rules = options.rules,
           .is_among_lab_programs = options.transport == dds::Transport::kLab,
           .keep_running = options.keep_running,
+          .ticks_by_period = options.ticks_by_period,
           .startup_timeout = time::nanoseconds(options.startup_timeout)};
 }
 

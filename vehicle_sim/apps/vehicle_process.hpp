@@ -25,6 +25,7 @@ struct VehicleProcessOptions {
   machine::RunTime time{machine::kRealTime};
   machine::PacingRules rules{machine::real_rules(kVehicleStays)};
   bool keep_running{};  ///< VehicleMachineOptions
+  bool ticks_by_period{};  ///< the same
   std::chrono::seconds startup_timeout{30};
   std::string record_file;  ///< empty: no record
   bool append_record{};     ///< DriveRecorder
