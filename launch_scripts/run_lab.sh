@@ -117,10 +117,10 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $routes ]] || choices+=(--routes "$routes")
 check=("${choices[@]}")
 [[ -z $steps ]] || check+=(--steps "$steps")
-starts=$("$bin/show_scenario" "${check[@]}" --starts) || exit 2
-steps=$("$bin/show_scenario" "${check[@]}" --print_steps) || exit 2
+starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps --print_policy) || exit 2
+{ read -r steps && read -r driven_by; } < <(tail -n 2 <<<"$starts")
+starts=$(head -n -2 <<<"$starts")
 if [[ -n $dump_problems ]]; then
-  driven_by=$("$bin/show_scenario" "${check[@]}" --print_policy) || exit 2
   [[ $driven_by == none ]] ||
     fail "--dump-problems with policy $driven_by requires --policy none: a problem names a subgraph of the automaton's file"
 fi

@@ -208,7 +208,12 @@ end_all() {
   kill -TERM "${!names[@]}" 2>/dev/null
   local deadline=$((SECONDS + 4))
   while kill -0 "${!names[@]}" 2>/dev/null && ((SECONDS < deadline)); do sleep 0.05; done
-  kill -KILL "${!names[@]}" 2>/dev/null # processes that hang or are stopped
+  # Processes that hang or are stopped, and the controllers of a common parent.
+  local pid left=()
+  for pid in "${!names[@]}"; do
+    read -r -a children 2>/dev/null <"/proc/$pid/task/$pid/children" && left+=("${children[@]}")
+  done
+  kill -KILL "${!names[@]}" "${left[@]}" 2>/dev/null
 }
 trap end_all INT TERM HUP EXIT
 
@@ -225,14 +230,18 @@ all=$(name_of "$id")
 start vehicle "vehicle_$all" "$bin/vehicle_sim" "${common[@]}" "${vehicle[@]}"
 start middleware "middleware_$all" "$bin/middleware" "${common[@]}" --vehicle_ids="$id" \
   --middleware_domain="$middleware_domain"
-for one in "${ids[@]}"; do
-  start hlc "high_level_controller_$one" "$bin/high_level_controller" "${common[@]}" --vehicle_ids="$one" \
+# One program reads the scenario for all controllers, each of which is a process of its own. Those that may
+# be restarted start alone.
+controllers=("$id")
+[[ $on_death == stop ]] || controllers=("${ids[@]}")
+for one in "${controllers[@]}"; do
+  start hlc "high_level_controller_$(name_of "$one")" "$bin/high_level_controller" "${common[@]}" --vehicle_ids="$one" \
     --middleware_domain="$middleware_domain" "${controller[@]}"
 done
 for one in "${ids[@]}"; do
   [[ -n $only ]] || : >"$out/logs/vehicle_$one.pids"
   for pid in "${!names[@]}"; do
-    [[ ! ${names[$pid]} =~ ^(vehicle|middleware)_$all$|_$one$ ]] || echo "$pid ${names[$pid]}"
+    [[ ! ${names[$pid]} =~ _($all|$one)$ ]] || echo "$pid ${names[$pid]}"
   done >>"$out/logs/vehicle_$one.pids"
 done
 ! $is_ending || end_all # signal during the start
