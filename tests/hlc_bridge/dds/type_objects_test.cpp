@@ -72,6 +72,12 @@ TEST(LabTypes, HaveBareNamesNoKeysAndAnnounceTypeObjects) {
   expect_lab_type<Visualization>("Visualization");
 }
 
+TEST(LabTypes, AnnounceNoTypeObjectsAmongOurOwnProcesses) {
+  const auto type = type_support<VehicleStateList>(Transport::kLoopback);
+  EXPECT_FALSE(type->auto_fill_type_object());
+  EXPECT_FALSE(type->auto_fill_type_information());
+}
+
 template <class Message>
 void expect_own_type(const std::string& name, bool keyed) {
   const auto type = type_support<Message>(Transport::kLab);
