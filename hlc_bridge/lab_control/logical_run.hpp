@@ -43,7 +43,7 @@ class LogicalRun : public LabRun {
 
   TickMaster ticks_;
   std::map<std::string, std::string> shared_by_;  ///< source_id of the timers of several vehicles
-  std::set<std::string> controllers_;  ///< living, with living middleware
+  std::set<std::string> controllers_;             ///< living, with living middleware
   bool send_again_{};
 };
 

@@ -20,8 +20,7 @@ const std::string kScripts = test::source_folder() + "/launch_scripts/";
 class SharedProcesses : public testing::Test {
  protected:
   ChildProcess run_lab(std::vector<std::string> flags) {
-    flags.insert(flags.begin(),
-                 {kScripts + "run_lab.sh", "--bin", test::build_folder() + "/bin"});
+    flags.insert(flags.begin(), {kScripts + "run_lab.sh", "--bin", test::build_folder() + "/bin"});
     return ChildProcess(flags, folder_ / "output");
   }
   ChildProcess restart(const std::string& id, const std::string& only) {
@@ -55,8 +54,8 @@ TEST_F(SharedProcesses, DriveAsThoseOfEveryVehicleDo) {
   std::map<std::string, std::string> traces;
   for (const std::string share : {"none", "machine"}) {
     const std::filesystem::path folder = folder_ / share;
-    ChildProcess run = run_lab({"--steps", "40", "--noise_seed", "1", "--share", share, "--out",
-                                folder.string()});
+    ChildProcess run =
+        run_lab({"--steps", "40", "--noise_seed", "1", "--share", share, "--out", folder.string()});
     ASSERT_EQ(run.wait_for(120s), 0) << output();
     const auto summary = nlohmann::json::parse(read_text(folder / "summary.json"), nullptr, false);
     ASSERT_TRUE(summary.is_object());
@@ -90,7 +89,8 @@ TEST_F(SharedProcesses, ThatDieEndTheRunWithCode4AndEveryController) {
     }
     if (process.starts_with("middleware")) {
       const std::string log = read_text(out() / "logs" / "high_level_controller_1-3.log");
-      for (const char* lost : {"controller_1: middleware_1 lost", "controller_3: middleware_3 lost"}) {
+      for (const char* lost :
+           {"controller_1: middleware_1 lost", "controller_3: middleware_3 lost"}) {
         EXPECT_NE(log.find(lost), std::string::npos) << log;
       }
     }
@@ -104,8 +104,8 @@ TEST_F(SharedProcesses, AControllerIsStartedAgainAloneButNothingThatOthersShare)
   ASSERT_TRUE(has_driven(8000)) << output();
   for (const std::string only : {"middleware", "vehicle"}) {
     EXPECT_EQ(restart("2", only).wait_for(60s), 2);
-    EXPECT_EQ(read_text(folder_ / only), "vehicle.sh: --only = " + only +
-                                             ": vehicle 2 shares it, must be with --id 1,2,3\n");
+    EXPECT_EQ(read_text(folder_ / only),
+              "vehicle.sh: --only = " + only + ": vehicle 2 shares it, must be with --id 1,2,3\n");
   }
   const pid_t pid = pid_of("high_level_controller_2");
   ASSERT_GT(pid, 0);

@@ -21,7 +21,7 @@ namespace hlc::apps {
 
 struct VehicleProcessOptions {
   std::vector<simulated_vehicle::SimulatedVehicleOptions> vehicles;  ///< at least one
-  std::string version{};                                             ///< ParticipantOptions::version
+  std::string version{};  ///< ParticipantOptions::version
   dds::Transport transport{dds::Transport::kLab};
   int lab_domain{};
   std::optional<dds::DiscoveryServer> discovery_server;

@@ -124,8 +124,8 @@ hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
           .rules = flags.network.simulated_time ? hlc::machine::logical_rules()
                                                 : hlc::machine::real_rules(grace),
           .keep_running = flags.keep_running,
-          .ticks_by_period = flags.network.simulated_time && flags.network.transport == "loopback" &&
-                             !flags.keep_running,
+          .ticks_by_period = flags.network.simulated_time &&
+                             flags.network.transport == "loopback" && !flags.keep_running,
           .startup_timeout = flags.network.startup_timeout(),
           .record_files = record_files(flags),
           .append_record = flags.append_record};

@@ -22,8 +22,8 @@ struct OfVehicle {
 /// By vehicle.
 using FleetPresence = std::map<std::uint8_t, VehiclePresence>;
 
-/// The simulated vehicles of one process (machine/machine.hpp), which have its time and its endpoint
-/// for ticks in common: a tick is requested when no vehicle is busy with an earlier one.
+/// The simulated vehicles of one process (machine/machine.hpp), which have its time and its
+/// endpoint for ticks in common: a tick is requested when no vehicle is busy with an earlier one.
 ///
 /// Ends when all vehicles have ended, or with the first one that fails.
 class VehicleFleet {

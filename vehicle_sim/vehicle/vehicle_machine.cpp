@@ -125,8 +125,7 @@ bool VehicleMachine::is_prepared(const Instant& now, Actions& actions) {
 
 /// The vehicle's own ticks where a period does not consist of them.
 void VehicleMachine::begin_ticks(Nanoseconds period, const Instant& now) {
-  tick_period_ = period % kVehiclePeriod == 0 ? period : kVehiclePeriod;
-  ticks_.emplace(tick_period_, 0, now);
+  ticks_.emplace(period % kVehiclePeriod == 0 ? period : kVehiclePeriod, 0, now);
 }
 
 std::string VehicleMachine::parameter_fault() const {
@@ -195,7 +194,7 @@ bool VehicleMachine::awaits_answer(const PendingTick& tick, const Instant& now, 
 }
 
 void VehicleMachine::run_tick(Nanoseconds t_now, Actions& actions) {
-  const bool is_by_period = tick_period_ > kVehiclePeriod;
+  const bool is_by_period = ticks_->period() > kVehiclePeriod;
   if (is_by_period) brake_if_stopped(actions);  // nothing of the period has happened yet
   make_up_for_missed_ticks(t_now, actions);
   brake_if_stopped(actions);
@@ -226,8 +225,8 @@ void VehicleMachine::make_up_for_missed_ticks(Nanoseconds t_now, Actions& action
 
 /// The next list holds the state of this made-up tick.
 bool VehicleMachine::is_in_list(Nanoseconds t) const {
-  if (tick_period_ == kVehiclePeriod) return false;
-  const Nanoseconds list = next_on_grid(t, tick_period_, kListOffset);
+  if (ticks_->period() == kVehiclePeriod) return false;
+  const Nanoseconds list = next_on_grid(t, ticks_->period(), kListOffset);
   return newest_valid_state_stamp(list) == t;
 }
 

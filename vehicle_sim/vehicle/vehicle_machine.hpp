@@ -110,7 +110,6 @@ class VehicleMachine {
   machine::StartUp start_up_;
   machine::LabControlGrace lab_control_;
   std::optional<machine::Ticks> ticks_;  ///< once it is prepared
-  Nanoseconds tick_period_{};
   std::optional<PendingTick> pending_;
   std::optional<Nanoseconds> last_tick_;
   VehiclePresence presence_;
