@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Drives a scenario: one simulated car, middleware and high-level controller per vehicle and one lab control,
-# each its own process, over DDS. Prints the result table.
+# each its own process, or one process with all cars and one middleware, over DDS. Prints the result table.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -27,8 +27,10 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --on_death WHAT         stop (default): when a process dies, the others make a minimal-risk stop and the run ends;
                           continue (real time): the run continues, and a killed controller may be restarted
                           (launch_scripts/vehicle.sh --id N --only hlc --out DIR)
+  --share NAME            none: a middleware and a simulator process per vehicle; machine: one of each for all (default:
+                          none up to 4 cars; a drive is the same with both)
   --transport NAME        loopback (default) or lab
-  --dds_domain N          lab domain; the vehicles take the next ones, the controllers N + 50
+  --dds_domain N          lab domain; the vehicles take the next ones (--share machine: one), the controllers N + 50
                           (default: a free block)
   --dump-problems DIR     write each planning problem to a JSON file in this new or empty folder, for plan_problem; in
                           real time this may delay steps; requires --policy none if the scenario has a policy
@@ -48,7 +50,7 @@ fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
 simulated_time=true noise_seed="" gains_scale="" on_death=stop transport=loopback dds_domain="" out="" preset=release
-bin="" build=true
+bin="" build=true share=""
 startup_timeout_s=20
 while (($#)); do
   case "$1" in
@@ -68,7 +70,7 @@ while (($#)); do
   case "$name" in
     scenario | profile | engine | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
       simulated_time | noise_seed | gains_scale | on_death | transport | dds_domain | out | preset | bin | \
-      startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+      share | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
 done
@@ -77,6 +79,9 @@ done
 [[ $on_death == stop || ($on_death == continue && $simulated_time == false) ]] ||
   fail "--on_death = $on_death, must be stop, or in real time continue"
 [[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, must be one of loopback, lab"
+[[ -z $share || $share == none || $share == machine ]] || fail "--share = $share, must be one of none, machine"
+[[ $share != machine || $transport == loopback || $simulated_time == false ]] ||
+  fail "--share = machine with --transport = lab in logical time, must be none"
 whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a whole number"; }
 for name in cars seed steps noise_seed dds_domain startup_timeout_s; do whole_number "$name" "${!name}"; done
 in_range() { # flag, value, from, to
@@ -112,18 +117,25 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $routes ]] || choices+=(--routes "$routes")
 check=("${choices[@]}")
 [[ -z $steps ]] || check+=(--steps "$steps")
-starts=$("$bin/show_scenario" "${check[@]}" --starts) || exit 2
-steps=$("$bin/show_scenario" "${check[@]}" --print_steps) || exit 2
+starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps --print_policy) || exit 2
+{ read -r steps && read -r driven_by; } < <(tail -n 2 <<<"$starts")
+starts=$(head -n -2 <<<"$starts")
 if [[ -n $dump_problems ]]; then
-  driven_by=$("$bin/show_scenario" "${check[@]}" --print_policy) || exit 2
   [[ $driven_by == none ]] ||
     fail "--dump-problems with policy $driven_by requires --policy none: a problem names a subgraph of the automaton's file"
 fi
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
 
-# A block of DDS domains not used by any other run on this machine: the lab's and one per vehicle, 50 higher
+# With more than 4 cars the processes of each cost more than they compute.
+if [[ -z $share ]]; then
+  share=machine
+  ((${#ids[@]} > 4)) && [[ $transport == loopback || $simulated_time == false ]] || share=none
+fi
+
+# A block of DDS domains not used by any other run on this machine: the lab's and one per middleware, 50 higher
 # the controllers'. This shell and its children hold the locks; a manual vehicle.sh shares them.
 largest_id=${ids[-1]}
+[[ $share == none ]] || largest_id=${ids[0]}
 block_is_free() { # first domain
   local domain file fd fds=()
   for ((domain = $1; domain <= $1 + largest_id; domain++)); do
@@ -208,6 +220,7 @@ noise_seed: ${noise_seed:-null}
 gains_scale: ${gains_scale:-1}
 on_death: $on_death
 transport: $transport
+share: $share
 dds_domain: $dds_domain
 startup_timeout_s: $startup_timeout_s
 programs: $(quoted "$(realpath "$bin")")
@@ -249,10 +262,17 @@ trap end_early INT TERM HUP
 trap end_children EXIT # also when this script fails
 
 flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" --out "$out")
-for id in "${ids[@]}"; do
-  vehicle=("${flags[@]}" --on_death "$on_death" --id "$id" --bin "$bin" "${choices[@]}" --startup_timeout_s $((startup_timeout_s + 10))
-    --pose "$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")")
-  [[ -z $noise_seed ]] || vehicle+=(--noise_seed $((noise_seed + id)))
+groups=("${ids[@]}")
+[[ $share == none ]] || groups=("$(IFS=,; echo "${ids[*]}")")
+for group in "${groups[@]}"; do
+  pose="" seeds=""
+  for id in ${group//,/ }; do
+    pose+=${pose:+,}$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")
+    [[ -z $noise_seed ]] || seeds+=${seeds:+,}$((noise_seed + id))
+  done
+  vehicle=("${flags[@]}" --on_death "$on_death" --id "$group" --bin "$bin" "${choices[@]}"
+    --startup_timeout_s $((startup_timeout_s + 10)) --pose "$pose")
+  [[ -z $seeds ]] || vehicle+=(--noise_seed "$seeds")
   [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
   [[ -z $dump_problems ]] || vehicle+=(--dump-problems "$dump_problems")
   HLC_DOMAINS_ARE_RESERVED=1 with_me "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &

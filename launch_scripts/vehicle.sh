@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # One vehicle: its simulated car, its middleware and its high-level controller, as one machine of the lab
-# runs them. Ends when all three have ended. --only restarts one of them during a run.
+# runs them; or several vehicles, which share the first two. Ends when all processes have ended. --only
+# restarts one of them during a run.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
   cat <<'TEXT'
 usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name=value)
-  --id N                  vehicle, 1 ... 30
+  --id N                  vehicle, 1 ... 30; several, such as 1,2,3: one process with all simulated cars, one
+                          middleware, and a controller each
   --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
   --profile NAME          default or 2022 (default: default)
   --engine NAME           branch_and_bound, best_first, ompl_branch_and_bound or ompl_best_first (default: the
@@ -22,23 +24,24 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --transport NAME        loopback (default) or lab
   --dds_domain N          lab domain (default 1). Several vehicles share it; with the transport loopback it must
                           not be one that a run of run_lab.sh or a test uses at the moment
-  --middleware_domain N   local domain of this vehicle (default: lab domain + id)
+  --middleware_domain N   local domain of this vehicle (default: lab domain + id, the first of several)
   --controller_domain N   domain of the controllers (default: lab domain + 50)
   --discovery_mode MODE   simple (default: multicast) or client, with the address of the lab domain's discovery server:
                           --discovery_server_id ID, --discovery_server_ip ADDRESS, --discovery_server_port PORT
   --controller_peers A,B  addresses of the other machines, asked on the controllers' domain besides multicast
   --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written);
                           requires --policy none if the scenario has a policy
-  --pose X,Y,YAW          initial pose of the simulated car (default: the scenario's start)
-  --noise_seed N          measurement noise from this seed (default: none)
+  --pose X,Y,YAW          initial pose of the simulated car, of each of several (default: the scenario's start)
+  --noise_seed N          measurement noise from this seed, one for each of several (default: none)
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
   --on_death WHAT         stop (default): a process that is killed fails the run; continue: it may be restarted
   --only NAME             restart one process: hlc, middleware or vehicle. Omitted flags are those with
-                          which the vehicle of the run in --out was started; a car keeps its last pose
+                          which the vehicle of the run in --out was started; a car keeps its last pose.
+                          What several vehicles share is restarted with all of them as --id
   --out DIR               folder for logs and the vehicle's record (default: runs/vehicle_N)
   --bin DIR               folder of the programs (default: build/release/bin)
   --startup_timeout_s N   startup timeout (default 30)
-Exit code: the first failing one of the three; 2 invalid input
+Exit code: the first failing one of the processes; 2 invalid input
 TEXT
 }
 
@@ -48,10 +51,10 @@ id="" scenario="" profile=default engine="" dump_problems="" subgraph="" policy=
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
-noise_seed="" gains_scale="" on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only=""
+noise_seed="" gains_scale="" on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
 kept_flags=(id scenario profile engine dump_problems subgraph policy map cars seed routes simulated_time transport
   discovery_mode discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
-  controller_domain pose noise_seed gains_scale on_death bin startup_timeout_s)
+  controller_domain pose noise_seed gains_scale on_death bin startup_timeout_s shared_by)
 take_flags() {
   local name value
   while (($#)); do
@@ -73,7 +76,10 @@ take_flags() {
   done
 }
 take_flags "$@"
-flags_file=$out/logs/vehicle_$id.flags
+name_of() { # ids: 3, or 1-20 for several
+  if [[ $1 == *,* ]]; then echo "${1%%,*}-${1##*,}"; else echo "$1"; fi
+}
+flags_file=$out/logs/vehicle_$(name_of "$id").flags
 if [[ -n $only && -n $out && -e $flags_file ]]; then
   mapfile -t former <"$flags_file"
   take_flags "${former[@]}"
@@ -84,18 +90,29 @@ case "$only" in
   *) fail "--only = $only, must be one of hlc, middleware, vehicle" ;;
 esac
 [[ $on_death == stop || $on_death == continue ]] || fail "--on_death = $on_death, must be one of stop, continue"
-[[ $id =~ ^[0-9]{1,2}$ && $id -ge 1 && $id -le 30 ]] || fail "--id = $id, must be in 1 ... 30"
-id=$((10#$id))
+[[ $id =~ ^[0-9]{1,2}(,[0-9]{1,2})*$ ]] || fail "--id = $id, must be in 1 ... 30"
+ids=()
+for one in ${id//,/ }; do
+  one=$((10#$one))
+  ((one >= 1 && one <= 30)) || fail "--id = $id, must be in 1 ... 30"
+  [[ " ${ids[*]} " != *" $one "* ]] || fail "--id = $id, must be different numbers"
+  ids+=("$one")
+done
+id=$(IFS=,; echo "${ids[*]}")
+[[ $only == "" || $only == hlc || -z $shared_by || $shared_by == "$id" ]] ||
+  fail "--only = $only: vehicle $id shares it, must be with --id $shared_by"
+[[ $only != hlc || ${#ids[@]} == 1 ]] || fail "--only = hlc: --id = $id, must be one vehicle"
 whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a whole number"; }
-for name in cars seed dds_domain middleware_domain controller_domain noise_seed startup_timeout_s; do
+for name in cars seed dds_domain middleware_domain controller_domain startup_timeout_s; do
   whole_number "$name" "${!name}"
 done
+for one in ${noise_seed//,/ }; do whole_number noise_seed "$one"; done
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 [[ -n $scenario ]] || fail "--scenario is missing"
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
-[[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + id))
-[[ -n $out ]] || out=$root/runs/vehicle_$id
+[[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + ids[0]))
+[[ -n $out ]] || out=$root/runs/vehicle_$(name_of "$id")
 if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/run.json"; then
   fail "--out = $out: a finished run, must be a new folder; --only requires a running one"
 fi
@@ -129,17 +146,21 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $cars ]] || choices+=(--cars "$cars")
 [[ -z $seed ]] || choices+=(--seed "$seed")
 [[ -z $routes ]] || choices+=(--routes "$routes")
-record=$out/vehicle_$id.csv
 appends=() # a restarted car keeps its last pose, and its record continues
-if [[ $only == vehicle && -s $record ]]; then
+if [[ $only == vehicle && -s $out/vehicle_${ids[0]}.csv ]]; then
   appends=(--append_record)
-  last=$(grep -E '^[0-9]+(,[^,]+){7}$' "$record" | tail -n 1 | cut -d, -f2-4)
-  pose=${last:-$pose}
+  last=$(for one in "${ids[@]}"; do
+    grep -E '^[0-9]+(,[^,]+){7}$' "$out/vehicle_$one.csv" | tail -n 1 | cut -d, -f2-4
+  done)
+  ((${#ids[@]} != $(wc -l <<<"$last"))) || pose=$(paste -sd, <<<"${last:-$pose}")
 fi
 if [[ -z $pose && $only != hlc && $only != middleware ]]; then
   starts=$("$bin/show_scenario" "${choices[@]}" --starts) || exit 2
-  pose=$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")
-  [[ -n $pose ]] || fail "--id = $id, must be one of $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
+  for one in "${ids[@]}"; do
+    start=$(awk -v id="$one" '$1 == id {print $2}' <<<"$starts")
+    [[ -n $start ]] || fail "--id = $one, must be one of $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
+    pose+=${pose:+,}$start
+  done
 fi
 
 common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transport="$transport"
@@ -147,7 +168,7 @@ common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transpor
 for name in discovery_mode discovery_server_id discovery_server_ip discovery_server_port; do
   [[ -z ${!name} ]] || common+=("--$name=${!name}")
 done
-vehicle=(--vehicle_id="$id" --pose="$pose" --record="$record" "${appends[@]}")
+vehicle=(--vehicle_ids="$id" --pose="$pose" --record="$out/vehicle_{id}.csv" "${appends[@]}")
 [[ -z $noise_seed ]] || vehicle+=(--noise_seed="$noise_seed")
 [[ -z $gains_scale ]] || vehicle+=(--gains_scale="$gains_scale")
 controller=("${choices[@]}")
@@ -157,11 +178,8 @@ controller=("${choices[@]}")
 
 # With two controllers a car would follow both alternately.
 if [[ -n $only ]]; then
-  case "$only" in
-    hlc) process=high_level_controller_$id ;;
-    *) process=${only}_$id ;;
-  esac
-  pid=$(awk -v name="$process" '$2 == name {pid = $1} END {print pid}' "$out/logs/vehicle_$id.pids" 2>/dev/null)
+  process=${only/#hlc/high_level_controller}_$(name_of "$id")
+  pid=$(awk -v name="$process" '$2 == name {pid = $1} END {print pid}' "$out/logs/vehicle_${ids[0]}.pids" 2>/dev/null)
   program=$(basename "$(readlink "/proc/${pid:-none}/exe" 2>/dev/null)" " (deleted)") # rebuilt meanwhile
   [[ ! $program =~ ^(vehicle_sim|middleware|high_level_controller)$ ]] ||
     fail "--only = $only: $process still running; stop it first: kill -9 $pid"
@@ -169,9 +187,16 @@ fi
 
 scenario=$(realpath "$scenario") bin=$(realpath "$bin")
 [[ -z $map ]] || map=$(realpath "$map")
-[[ -n $only ]] || for name in "${kept_flags[@]}"; do
-  [[ -z ${!name} ]] || echo "--$name=${!name}"
-done >"$out/logs/vehicle_$id.flags"
+keep_flags() { # ids
+  local id=$1 name
+  for name in "${kept_flags[@]}"; do
+    [[ -z ${!name} ]] || echo "--$name=${!name}"
+  done >"$out/logs/vehicle_$(name_of "$id").flags"
+}
+if [[ -z $only ]]; then
+  ((${#ids[@]} == 1)) || shared_by=$id
+  for one in $id "${ids[@]}"; do keep_flags "$one"; done
+fi
 
 declare -A names=() # of running processes, by pid
 is_ending=false
@@ -183,7 +208,12 @@ end_all() {
   kill -TERM "${!names[@]}" 2>/dev/null
   local deadline=$((SECONDS + 4))
   while kill -0 "${!names[@]}" 2>/dev/null && ((SECONDS < deadline)); do sleep 0.05; done
-  kill -KILL "${!names[@]}" 2>/dev/null # processes that hang or are stopped
+  # Processes that hang or are stopped, and the controllers of a common parent.
+  local pid left=()
+  for pid in "${!names[@]}"; do
+    read -r -a children 2>/dev/null <"/proc/$pid/task/$pid/children" && left+=("${children[@]}")
+  done
+  kill -KILL "${!names[@]}" "${left[@]}" 2>/dev/null
 }
 trap end_all INT TERM HUP EXIT
 
@@ -196,14 +226,24 @@ start() { # name for --only, name, program and flags
   setpriv --pdeathsig TERM -- "$@" >>"$out/logs/$name.log" 2>&1 </dev/null &
   names[$!]=$name
 }
-[[ -n $only ]] || : >"$out/logs/vehicle_$id.pids"
-start vehicle "vehicle_$id" "$bin/vehicle_sim" "${common[@]}" "${vehicle[@]}"
-start middleware "middleware_$id" "$bin/middleware" "${common[@]}" --vehicle_ids="$id" \
+all=$(name_of "$id")
+start vehicle "vehicle_$all" "$bin/vehicle_sim" "${common[@]}" "${vehicle[@]}"
+start middleware "middleware_$all" "$bin/middleware" "${common[@]}" --vehicle_ids="$id" \
   --middleware_domain="$middleware_domain"
-start hlc "high_level_controller_$id" "$bin/high_level_controller" "${common[@]}" --vehicle_ids="$id" \
-  --middleware_domain="$middleware_domain" "${controller[@]}"
-printf '%s\n' "${!names[@]}" | while read -r pid; do echo "$pid ${names[$pid]}"; done \
-  >>"$out/logs/vehicle_$id.pids"
+# One program reads the scenario for all controllers, each of which is a process of its own. Those that may
+# be restarted start alone.
+controllers=("$id")
+[[ $on_death == stop ]] || controllers=("${ids[@]}")
+for one in "${controllers[@]}"; do
+  start hlc "high_level_controller_$(name_of "$one")" "$bin/high_level_controller" "${common[@]}" --vehicle_ids="$one" \
+    --middleware_domain="$middleware_domain" "${controller[@]}"
+done
+for one in "${ids[@]}"; do
+  [[ -n $only ]] || : >"$out/logs/vehicle_$one.pids"
+  for pid in "${!names[@]}"; do
+    [[ ! ${names[$pid]} =~ _($all|$one)$ ]] || echo "$pid ${names[$pid]}"
+  done >>"$out/logs/vehicle_$one.pids"
+done
 ! $is_ending || end_all # signal during the start
 
 first=0
@@ -213,8 +253,9 @@ while true; do
     wait "$pid"
     code=$?
     if ((code > 128)) && [[ $on_death == continue ]]; then
-      which=${names[$pid]%_*}
-      echo "${names[$pid]} was killed; restart: $0 --id $id --only ${which/high_level_controller/hlc} --out $out" >&2
+      which=${names[$pid]%_*} of=$id
+      [[ $which != high_level_controller ]] || of=${names[$pid]##*_}
+      echo "${names[$pid]} was killed; restart: $0 --id $of --only ${which/high_level_controller/hlc} --out $out" >&2
     elif ((code != 0)); then
       echo "${names[$pid]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$pid]}.log")" >&2
       ((first != 0)) || first=$code

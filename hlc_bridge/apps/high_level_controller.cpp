@@ -164,9 +164,10 @@ int main(int argc, char** argv) {
     }
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;
-  return hlc::apps::process_per_vehicle(flags.vehicle_ids, signals, [&](int id) {
+  const auto run = [&](int id, hlc::time::StopSignals& own_signals) {
     return hlc::apps::run_program(
-        program, signals, [&] { return make_process(flags, *scenario, id); },
+        program, own_signals, [&] { return make_process(flags, *scenario, id); },
         [](hlc::process::HlcProcess& process) { process.stop(); });
-  });
+  };
+  return hlc::apps::process_per_vehicle(flags.vehicle_ids, signals, run);
 }

@@ -27,9 +27,9 @@ struct Flags {
 void declare(CLI::App& app, Flags& flags) {
   flags.network.declare(app);
   app.add_option("--node_id", flags.node_id,
-                 "name in the log and of the timer in logical time; default: middleware_<id>");
+                 "name in the log and of the timer in logical time; default: middleware_<ids>");
   app.add_option("--vehicle_ids,--vehicle_id", flags.vehicle_ids,
-                 "the controllers' vehicles, such as 1,2 (under our lab_control: one)")
+                 "the controllers' vehicles, such as 1,2")
       ->delimiter(',')
       ->required()
       ->check(hlc::apps::vehicle_id_range());
@@ -54,7 +54,7 @@ hlc::process::MiddlewareOptions process_options(const Flags& flags) {
     options.vehicle_ids.push_back(static_cast<std::uint8_t>(id));
   }
   options.node_id =
-      flags.node_id.empty() ? hlc::middleware_name(options.vehicle_ids.front()) : flags.node_id;
+      flags.node_id.empty() ? hlc::middleware_name(options.vehicle_ids) : flags.node_id;
   options.keep_running = flags.keep_running;
   options.transport = hlc::dds::transport_from_name(flags.network.transport);
   options.lab_domain = flags.network.dds_domain;

@@ -14,12 +14,16 @@
 namespace hlc::apps {
 namespace {
 
-pid_t start(int id, pid_t parent, const std::function<int(int id)>& run) {
+pid_t start(int id, pid_t parent, const RunOne& run) {
   const pid_t pid = fork();
   if (pid != 0) return pid;
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(kExitDied);  // the parent ended before prctl took effect
-  const int code = run(id);
+  int code = kExitDied;
+  {
+    time::StopSignals signals;  // the parent's are shared with all children
+    code = run(id, signals);
+  }  // with it the process's participants end: the library's own destructors would be too late
   std::exit(code);
 }
 
@@ -36,8 +40,8 @@ int exit_code_of(pid_t pid) {
 }  // namespace
 
 int process_per_vehicle(const std::vector<int>& ids, time::StopSignals& signals,
-                        const std::function<int(int id)>& run) {
-  if (ids.size() == 1) return run(ids.front());
+                        const RunOne& run) {
+  if (ids.size() == 1) return run(ids.front(), signals);
   const pid_t parent = getpid();
   std::vector<pid_t> children;
   for (const int id : ids) {

@@ -56,9 +56,7 @@ void EndpointPeers::notify() {
 std::set<std::string> EndpointPeers::names_in(const Presence& presence) const {
   std::set<std::string> names;
   for (const frtps::GUID_t& peer : peers_) {
-    if (const std::string* name = presence.name_of(key_of(peer))) {
-      names.insert(*name);
-    }
+    for (std::string& name : presence.names_of(key_of(peer))) names.insert(std::move(name));
   }
   return names;
 }

@@ -2,16 +2,20 @@
 
 #include <algorithm>
 
+#include "hlc_bridge/messages/node_names.hpp"
+
 namespace hlc::dds {
 
 void Presence::appeared(const ParticipantKey& key, const std::string& name,
                         const std::string& version) {
-  if (!names_.emplace(key, name).second) {
-    return;
-  }
+  const auto [entry, is_new] = names_.try_emplace(key);
+  if (!is_new) return;
+  entry->second = process_names(name);
   if (!version.empty()) versions_.emplace(key, version);
-  alive_.insert(name);
-  lost_.erase(name);
+  for (const std::string& process : entry->second) {
+    alive_.insert(process);
+    lost_.erase(process);
+  }
 }
 
 void Presence::left(const ParticipantKey& key) {
@@ -19,12 +23,13 @@ void Presence::left(const ParticipantKey& key) {
   if (found == names_.end()) {
     return;
   }
-  const std::string name = found->second;
+  const std::vector<std::string> left = found->second;
   names_.erase(found);
   versions_.erase(key);
-  const bool still_there =
-      std::ranges::any_of(names_, [&](const auto& entry) { return entry.second == name; });
-  if (!still_there) {
+  for (const std::string& name : left) {
+    const bool still_there = std::ranges::any_of(
+        names_, [&](const auto& entry) { return std::ranges::count(entry.second, name) > 0; });
+    if (still_there) continue;
     alive_.erase(name);
     lost_.insert(name);
   }
@@ -32,13 +37,15 @@ void Presence::left(const ParticipantKey& key) {
 
 std::map<std::string, std::string> Presence::versions() const {
   std::map<std::string, std::string> result;
-  for (const auto& [key, version] : versions_) result[names_.at(key)] = version;
+  for (const auto& [key, version] : versions_) {
+    for (const std::string& name : names_.at(key)) result[name] = version;
+  }
   return result;
 }
 
-const std::string* Presence::name_of(const ParticipantKey& key) const {
+std::vector<std::string> Presence::names_of(const ParticipantKey& key) const {
   const auto found = names_.find(key);
-  return found == names_.end() ? nullptr : &found->second;
+  return found == names_.end() ? std::vector<std::string>{} : found->second;
 }
 
 }  // namespace hlc::dds

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace hlc::dds {
 
@@ -12,7 +13,8 @@ namespace hlc::dds {
 using ParticipantKey = std::array<std::uint8_t, 12>;
 
 /// The participants on a domain. Several of them can have one name: the name is alive as long as
-/// one of them is. Not thread-safe.
+/// one of them is. A participant that stands for several processes (process_names) has all their
+/// names. Not thread-safe.
 class Presence {
  public:
   /// @param version  empty: not published
@@ -26,11 +28,11 @@ class Presence {
   [[nodiscard]] const std::set<std::string>& lost() const { return lost_; }
   /// By name, of the present participants that publish one.
   [[nodiscard]] std::map<std::string, std::string> versions() const;
-  /// nullptr if that participant is not present.
-  [[nodiscard]] const std::string* name_of(const ParticipantKey& key) const;
+  /// None if that participant is not present.
+  [[nodiscard]] std::vector<std::string> names_of(const ParticipantKey& key) const;
 
  private:
-  std::map<ParticipantKey, std::string> names_;
+  std::map<ParticipantKey, std::vector<std::string>> names_;
   std::map<ParticipantKey, std::string> versions_;
   std::set<std::string> alive_;
   std::set<std::string> lost_;

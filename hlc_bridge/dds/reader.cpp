@@ -29,7 +29,7 @@ Reader<Message>::Reader(Participant& participant, const Topic<Message>& topic,
                         std::function<void(const Message&)> on_message,
                         std::function<void()> on_matched_change)
     : endpoint_{std::make_unique<ReaderEndpoint>(
-          participant.core(), topic.name, type_support<Message>(),
+          participant.core(), topic.name, type_support<Message>(participant.options().transport),
           topic_qos(topic.id, participant.options().role, participant.options().transport).reader,
           converting<Message>(std::move(on_message)), std::move(on_matched_change))} {}
 

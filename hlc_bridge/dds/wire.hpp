@@ -27,6 +27,7 @@
 #include "hlc_bridge/dds/convert_hlc.hpp"
 #include "hlc_bridge/dds/convert_lab.hpp"
 #include "hlc_bridge/dds/fast_dds.hpp"
+#include "hlc_bridge/dds/transport.hpp"
 
 /// The generated type of each plain message. Only sources of this folder (and its tests) include
 /// this file.
@@ -77,10 +78,12 @@ template <> struct Wire<AutomatonAnswer> : OwnWire<AutomatonAnswerMessage, Autom
 template <> struct Wire<RunState> : OwnWire<RunStateMessage, RunStateMessagePubSubType> {};
 // clang-format on
 
+/// Type objects are announced to the lab's processes only: discovery costs several times as much
+/// with them.
 template <class Message>
-[[nodiscard]] fdds::TypeSupport type_support() {
+[[nodiscard]] fdds::TypeSupport type_support(Transport transport) {
   fdds::TypeSupport type{new TolerantType<typename Wire<Message>::PubSubType>};
-  announce_type_object(type, Wire<Message>::kAnnouncesTypeObject);
+  announce_type_object(type, transport == Transport::kLab && Wire<Message>::kAnnouncesTypeObject);
   return type;
 }
 

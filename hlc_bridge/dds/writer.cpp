@@ -12,7 +12,7 @@ template <class Message>
 Writer<Message>::Writer(Participant& participant, const Topic<Message>& topic,
                         std::function<void()> on_matched_change)
     : endpoint_{std::make_unique<WriterEndpoint>(
-          participant.core(), topic.name, type_support<Message>(),
+          participant.core(), topic.name, type_support<Message>(participant.options().transport),
           topic_qos(topic.id, participant.options().role, participant.options().transport).writer,
           std::move(on_matched_change))} {}
 

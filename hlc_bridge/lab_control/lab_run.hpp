@@ -124,7 +124,7 @@ class LabRun {
   /// Number of replies without which advance() has nothing to do, once the run has begun; 0 if any
   /// message may count.
   [[nodiscard]] std::size_t pending_answers() const {
-    return phase_ == Phase::kGathering ? 0 : pending_replies().size();
+    return phase_ == Phase::kGathering ? 0 : num_messages(pending_replies());
   }
 
   [[nodiscard]] Phase phase() const { return phase_; }
@@ -153,6 +153,10 @@ class LabRun {
   /// Processes with a pending reply. All of them are dead when no process has replied for
   /// kAnswerTimeout.
   [[nodiscard]] virtual std::vector<std::string> pending_replies() const { return {}; }
+  /// Messages in which these processes reply: one that serves several vehicles sends one for all.
+  [[nodiscard]] virtual std::size_t num_messages(const std::vector<std::string>& processes) const {
+    return processes.size();
+  }
   /// The process is gone. Before the beginning it may return, and starts again.
   virtual void drop(const std::string& /*process*/) {}
   /// The process, dropped before, is back.

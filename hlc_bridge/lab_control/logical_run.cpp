@@ -24,10 +24,13 @@ LogicalRun::LogicalRun(LabRunSettings run_settings)
 }
 
 void LogicalRun::ready(const ReadyStatus& status) {
-  if (ticks_.waits_for_released(status.source_id, status.next_start)) {
-    send_again_ = true;
-  } else if (ticks_.request(status.source_id, status.next_start)) {
-    note_progress();
+  for (const std::string& timer : process_names(status.source_id)) {
+    if (timer != status.source_id) shared_by_[timer] = status.source_id;
+    if (ticks_.waits_for_released(timer, status.next_start)) {
+      send_again_ = true;
+    } else if (ticks_.request(timer, status.next_start)) {
+      note_progress();
+    }
   }
 }
 
@@ -77,6 +80,15 @@ std::vector<std::string> LogicalRun::pending_replies() const {
     names = unreported_before(*tick);
   }
   return names;
+}
+
+std::size_t LogicalRun::num_messages(const std::vector<std::string>& processes) const {
+  std::set<std::string> senders;
+  for (const std::string& process : processes) {
+    const auto shared = shared_by_.find(process);
+    senders.insert(shared == shared_by_.end() ? process : shared->second);
+  }
+  return senders.size();
 }
 
 void LogicalRun::drop(const std::string& process) {

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
 #include "hlc_bridge/lab_control/lab_run.hpp"
 #include "hlc_bridge/lab_control/tick_master.hpp"
 
@@ -28,6 +33,7 @@ class LogicalRun : public LabRun {
   void go_on(LabRunActions& actions) override;
   [[nodiscard]] Nanoseconds clock() const override;
   [[nodiscard]] std::vector<std::string> pending_replies() const override;
+  [[nodiscard]] std::size_t num_messages(const std::vector<std::string>& processes) const override;
   void drop(const std::string& process) override;
 
  private:
@@ -36,7 +42,8 @@ class LogicalRun : public LabRun {
   [[nodiscard]] std::optional<Nanoseconds> next_tick() const;
 
   TickMaster ticks_;
-  std::set<std::string> controllers_;  ///< living, with living middleware
+  std::map<std::string, std::string> shared_by_;  ///< source_id of the timers of several vehicles
+  std::set<std::string> controllers_;             ///< living, with living middleware
   bool send_again_{};
 };
 

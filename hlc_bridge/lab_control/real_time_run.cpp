@@ -7,10 +7,9 @@
 namespace hlc::lab_control {
 
 void RealTimeRun::ready(const ReadyStatus& status) {
+  const std::vector<std::string> ready = single_ready_ids(status.source_id);
   for (const std::uint8_t id : settings().vehicle_ids) {
-    if (status.source_id == middleware_ready_id(id)) {
-      ready_.insert(middleware_name(id));
-    }
+    if (std::ranges::count(ready, middleware_ready_id(id)) > 0) ready_.insert(middleware_name(id));
   }
 }
 

@@ -18,6 +18,7 @@ class Ticks {
   /// @throws std::invalid_argument unless offset < period
   Ticks(Nanoseconds period, Nanoseconds offset, const Instant& now);
 
+  [[nodiscard]] Nanoseconds period() const { return period_; }
   /// When the next tick is due: for WakeUp::run.
   [[nodiscard]] Nanoseconds next() const { return next_; }
   /// The due tick, once.

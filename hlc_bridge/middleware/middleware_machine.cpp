@@ -144,7 +144,7 @@ std::string MiddlewareMachine::missing_peers() const {
   std::vector<std::string> missing;
   if (!peers_.lab_control_is_matched) missing.emplace_back(kLabControlName);
   if (!peers_.controllers_are_matched) {
-    missing.push_back(controller_name(settings_.vehicle_ids.front()));
+    for (const std::uint8_t id : settings_.vehicle_ids) missing.push_back(controller_name(id));
   }
   for (const std::int32_t active : cycle_.parameters().active_ids()) {
     const auto id = static_cast<std::uint8_t>(active);

@@ -23,7 +23,7 @@ middleware::MiddlewareSettings settings_of(const MiddlewareOptions& options) {
 
 dds::ParticipantOptions on_domain(const MiddlewareOptions& options, dds::DomainRole role) {
   const bool lab = role == dds::DomainRole::kLab;
-  return {.name = middleware_name(options.vehicle_ids.front()),
+  return {.name = middleware_name(options.vehicle_ids),
           .domain_id = lab ? options.lab_domain : options.local_domain,
           .role = role,
           .transport = options.transport,
@@ -177,9 +177,13 @@ middleware::MiddlewarePeers MiddlewareProcess::presence() const {
   peers.lab_control_is_lost = lab_.is_lost(kLabControlName);
   peers.commands_are_sent =
       controllers_.command.matched() > 0 || (lab_endpoints_ && lab_endpoints_->commands_are_sent());
-  peers.controllers_are_matched = controllers_.list.matched() > 0 &&
-                                  controllers_.trigger.matched() > 0 && peers.commands_are_sent &&
-                                  controllers_.ready.matched() > 0;
+  // One of the lab's controllers may drive several vehicles.
+  const std::size_t all =
+      options_.transport == dds::Transport::kLoopback ? options_.vehicle_ids.size() : 1;
+  peers.controllers_are_matched =
+      controllers_.list.matched() >= all && controllers_.trigger.matched() >= all &&
+      peers.commands_are_sent && controllers_.command.matched() >= all &&
+      controllers_.ready.matched() >= all;
   for (const auto& [id, reader] : state_readers_) {
     if (reader.matched() > 0) peers.state_publishers.insert(id);
   }

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
   hlc::apps::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::apps::whole(1, 100000));
-  app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle");
+  app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle (the next two may follow)");
   app.add_flag("--print_steps", steps, "print only the number of steps");
   app.add_flag("--print_policy", policy, "print only the name of the policy in force, or none");
   hlc::apps::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
@@ -77,15 +77,10 @@ int main(int argc, char** argv) {
     if (plot.file) {
       hlc::write_file(*plot.file, hlc::plot::scenario_plot(scenario, hlc::plot::map_of(scenario)));
     }
-    if (starts) {
-      print_starts(scenario);
-    } else if (steps) {
-      std::printf("%zu\n", scenario.steps);
-    } else if (policy) {
-      std::printf("%s\n", scenario.policy.c_str());
-    } else {
-      print_table(scenario);
-    }
+    if (starts) print_starts(scenario);
+    if (steps) std::printf("%zu\n", scenario.steps);
+    if (policy) std::printf("%s\n", scenario.policy.c_str());
+    if (!starts && !steps && !policy) print_table(scenario);
   };
   return hlc::apps::exit_code_of("show_scenario", run, kExitFailed);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <variant>
 
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
@@ -10,45 +11,93 @@
 namespace hlc::apps {
 namespace {
 
-simulated_vehicle::VehicleMachineOptions machine_options(const VehicleProcessOptions& options) {
-  return {.vehicle = options.vehicle,
-          .rules = options.rules,
-          .is_among_lab_programs = options.transport == dds::Transport::kLab,
-          .keep_running = options.keep_running,
-          .startup_timeout = time::nanoseconds(options.startup_timeout)};
+using simulated_vehicle::OfVehicle;
+using simulated_vehicle::SimulatedVehicleOptions;
+using simulated_vehicle::VehicleMachine;
+
+std::string name_of(const VehicleProcessOptions& options) {
+  std::vector<std::uint8_t> ids;
+  for (const SimulatedVehicleOptions& vehicle : options.vehicles) ids.push_back(vehicle.vehicle_id);
+  return vehicle_name(ids);
+}
+
+simulated_vehicle::VehicleFleet fleet(const VehicleProcessOptions& options) {
+  std::vector<simulated_vehicle::VehicleMachineOptions> machines;
+  for (const SimulatedVehicleOptions& vehicle : options.vehicles) {
+    machines.push_back({.vehicle = vehicle,
+                        .rules = options.rules,
+                        .is_among_lab_programs = options.transport == dds::Transport::kLab,
+                        .keep_running = options.keep_running,
+                        .ticks_by_period = options.ticks_by_period,
+                        .startup_timeout = time::nanoseconds(options.startup_timeout)});
+  }
+  return simulated_vehicle::VehicleFleet(machines);
+}
+
+std::vector<DriveRecorder> recorders(const VehicleProcessOptions& options) {
+  std::vector<DriveRecorder> recorders;
+  for (const std::string& file : options.record_files) {
+    recorders.emplace_back(file, options.append_record);
+  }
+  return recorders;
 }
 
 }  // namespace
 
-struct VehicleProcess::LabEndpoints {
-  explicit LabEndpoints(VehicleProcess& process)
-      : observation_writer{process.lab_,
-                           dds::topics::vehicle_observation(process.options_.vehicle.vehicle_id)},
-        path_tracking_reader{reader<PathTrackingCommand>(process)},
-        speed_curvature_reader{reader<SpeedCurvatureCommand>(process)},
-        direct_reader{reader<DirectCommand>(process)} {}
-
-  template <class Received>
-  static dds::Reader<Received> reader(VehicleProcess& process) {
-    return dds::Reader<Received>{
-        process.lab_, dds::topics::vehicle_command<Received>(process.options_.vehicle.vehicle_id),
-        [&process](const Received& command) { process.shell_.post(command); }};
+struct VehicleProcess::Vehicle {
+  Vehicle(VehicleProcess& process, std::size_t index)
+      : id{process.options_.vehicles.at(index).vehicle_id},
+        name{vehicle_name(id)},
+        state{process.lab_, dds::topics::vehicle_state(id), on_presence(process)},
+        trajectory{reader<TrajectoryCommand>(process, id)} {
+    if (!process.recorders_.empty()) recorder = &process.recorders_.at(index);
+    if (process.options_.transport != dds::Transport::kLab) return;
+    observation.emplace(process.lab_, dds::topics::vehicle_observation(id));
+    path_tracking = reader<PathTrackingCommand>(process, id);
+    speed_curvature = reader<SpeedCurvatureCommand>(process, id);
+    direct = reader<DirectCommand>(process, id);
   }
 
-  dds::Writer<VehicleObservation> observation_writer;
-  dds::Reader<PathTrackingCommand> path_tracking_reader;
-  dds::Reader<SpeedCurvatureCommand> speed_curvature_reader;
-  dds::Reader<DirectCommand> direct_reader;
+  static std::function<void()> on_presence(VehicleProcess& process) {
+    return [&process] { process.shell_.presence_changed(); };
+  }
+  template <class Command>
+  static std::unique_ptr<dds::Reader<Command>> reader(VehicleProcess& process, std::uint8_t id) {
+    return std::make_unique<dds::Reader<Command>>(
+        process.lab_, dds::topics::vehicle_command<Command>(id),
+        [&process, id](const Command& command) {
+          process.shell_.post(OfVehicle<VehicleMachine::Event>{id, command});
+        },
+        on_presence(process));
+  }
+
+  void perform(const ParameterRequest& /*request*/) {}  // the fleet's
+  void perform(const VehicleState& message) { state.write(message); }
+  void perform(const VehicleObservation& message) {
+    if (observation) observation->write(message);
+  }
+  void perform(const result::DrivenSample& sample) {
+    if (recorder != nullptr) recorder->write(sample);
+  }
+  void perform(const machine::LogLine& line) { process::log(name, line); }
+
+  std::uint8_t id;
+  std::string name;
+  DriveRecorder* recorder{};
+  dds::Writer<VehicleState> state;
+  std::unique_ptr<dds::Reader<TrajectoryCommand>> trajectory;
+  // What only the lab's programs send and receive: on the lab's transport.
+  std::optional<dds::Writer<VehicleObservation>> observation;
+  std::unique_ptr<dds::Reader<PathTrackingCommand>> path_tracking;
+  std::unique_ptr<dds::Reader<SpeedCurvatureCommand>> speed_curvature;
+  std::unique_ptr<dds::Reader<DirectCommand>> direct;
 };
 
 VehicleProcess::VehicleProcess(VehicleProcessOptions options)
     : options_(std::move(options)),
-      name_(vehicle_name(options_.vehicle.vehicle_id)),
-      recorder_(options_.record_file.empty()
-                    ? std::nullopt
-                    : std::optional<DriveRecorder>(std::in_place, options_.record_file,
-                                                   options_.append_record)),
-      shell_(name_, simulated_vehicle::VehicleMachine(machine_options(options_)),
+      name_(name_of(options_)),
+      recorders_(recorders(options_)),
+      shell_(name_, fleet(options_),
              options_.time.make_pacing(time::nanoseconds(options_.startup_timeout),
                                        time::wall_time_now())),
       lab_({.name = name_,
@@ -61,14 +110,8 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
             .on_loss =
                 [this](const std::string& line) { process::log(name_, machine::warning(line)); }},
            [this] { shell_.presence_changed(); }),
-      state_writer_(lab_, dds::topics::vehicle_state(options_.vehicle.vehicle_id),
-                    [this] { shell_.presence_changed(); }),
       ready_writer_(lab_, dds::topics::ready_status(), [this] { shell_.presence_changed(); }),
       request_writer_(lab_, dds::topics::parameter_request()),
-      command_reader_(
-          lab_, dds::topics::vehicle_command(options_.vehicle.vehicle_id),
-          [this](const TrajectoryCommand& command) { shell_.post(command); },
-          [this] { shell_.presence_changed(); }),
       parameter_reader_(lab_, dds::topics::parameter(),
                         [this](const Parameter& parameter) { shell_.post(parameter); }),
       trigger_reader_(
@@ -78,34 +121,40 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
             if (trigger.next_start == kStopSymbol) shell_.post_urgent(trigger);
           },
           [this] { shell_.presence_changed(); }) {
-  if (options_.transport == dds::Transport::kLab) {
-    lab_endpoints_ = std::make_unique<LabEndpoints>(*this);
+  for (std::size_t i = 0; i < options_.vehicles.size(); ++i) {
+    vehicles_.emplace(options_.vehicles[i].vehicle_id, std::make_unique<Vehicle>(*this, i));
   }
 }
 
 VehicleProcess::~VehicleProcess() = default;
 
 int VehicleProcess::run() {
-  const Pose& pose = options_.vehicle.start;
-  perform(machine::info(
-      fmt::format("at ({:.3f} m, {:.3f} m, {:.3f} rad)", pose.x_m, pose.y_m, pose.heading_rad)));
+  for (const SimulatedVehicleOptions& vehicle : options_.vehicles) {
+    const Pose& pose = vehicle.start;
+    vehicles_.at(vehicle.vehicle_id)
+        ->perform(machine::info(fmt::format("at ({:.3f} m, {:.3f} m, {:.3f} rad)", pose.x_m,
+                                            pose.y_m, pose.heading_rad)));
+  }
   return shell_.run(*this);
 }
 
-simulated_vehicle::VehiclePresence VehicleProcess::presence() const {
-  return {.lab = {.alive = lab_.alive(), .lost = lab_.lost()},
-          .state_readers = {state_writer_.matched(), state_writer_.matched_names()},
-          .command_writers = {command_reader_.matched(), command_reader_.matched_names()},
-          .ready_readers = ready_writer_.matched(),
-          .trigger_writers = trigger_reader_.matched()};
+simulated_vehicle::FleetPresence VehicleProcess::presence() const {
+  simulated_vehicle::FleetPresence presence;
+  const machine::Participants lab{.alive = lab_.alive(), .lost = lab_.lost()};
+  for (const auto& [id, vehicle] : vehicles_) {
+    presence[id] = {
+        .lab = lab,
+        .state_readers = {vehicle->state.matched(), vehicle->state.matched_names()},
+        .command_writers = {vehicle->trajectory->matched(), vehicle->trajectory->matched_names()},
+        .ready_readers = ready_writer_.matched(),
+        .trigger_writers = trigger_reader_.matched()};
+  }
+  return presence;
 }
 
-void VehicleProcess::perform(const VehicleObservation& observation) {
-  if (lab_endpoints_) lab_endpoints_->observation_writer.write(observation);
-}
-
-void VehicleProcess::perform(const result::DrivenSample& sample) {
-  if (recorder_) recorder_->write(sample);
+void VehicleProcess::perform(const OfVehicle<VehicleMachine::Action>& action) {
+  Vehicle& vehicle = *vehicles_.at(action.vehicle_id);
+  std::visit([&vehicle](const auto& what) { vehicle.perform(what); }, action.what);
 }
 
 }  // namespace hlc::apps

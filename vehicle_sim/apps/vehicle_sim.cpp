@@ -1,10 +1,13 @@
-// One simulated µCar as a process on the lab domain. Started by launch_scripts/vehicle.sh, with the
-// flags of the lab's vehicle and ours.
+// Simulated µCars as a process on the lab domain, one or several. Started by
+// launch_scripts/vehicle.sh, with the flags of the lab's vehicle and ours.
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
@@ -19,9 +22,9 @@ constexpr double kMaxGainsScale = 10.0;
 
 struct Flags {
   hlc::apps::NetworkFlags network;
-  int vehicle_id{};
+  std::vector<int> vehicle_ids;
   std::vector<double> pose;
-  std::optional<std::uint64_t> noise_seed;
+  std::vector<std::uint64_t> noise_seeds;
   double gains_scale{1.0};
   std::string record;
   bool append_record{};
@@ -29,21 +32,27 @@ struct Flags {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("--vehicle_id", flags.vehicle_id, "1 ... 30")
+  app.add_option("--vehicle_id,--vehicle_ids", flags.vehicle_ids,
+                 "1 ... 30; several, such as 1,2, are one process")
+      ->delimiter(',')
       ->required()
       ->check(hlc::apps::vehicle_id_range());
   flags.network.declare(app);
-  app.add_option("--pose", flags.pose, "x,y,yaw at the start [m, m, rad]; needed for ids above 23")
+  app.add_option("--pose", flags.pose,
+                 "x,y,yaw at the start [m, m, rad], of each vehicle; needed for ids above 23")
+      ->delimiter(',');
+  app.add_option("--noise_seed", flags.noise_seeds,
+                 "measure the pose with the lab's noise (2 mm, 0.01 rad), one seed for each "
+                 "vehicle; default: exactly")
       ->delimiter(',')
-      ->expected(3);
-  app.add_option("--noise_seed", flags.noise_seed,
-                 "measure the pose with the lab's noise (2 mm, 0.01 rad); default: exactly")
       ->check(hlc::apps::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.add_option("--gains_scale", flags.gains_scale, "factor on the follower's gains; 0: no motion")
       ->capture_default_str()
       ->check(hlc::apps::within(0.0, kMaxGainsScale));
   CLI::Option* const record =
-      app.add_option("--record", flags.record, "CSV file for the true motion, one row per tick");
+      app.add_option("--record", flags.record,
+                     "CSV file for the true motion, one row per tick; with several vehicles one "
+                     "each: {id} stands for the number");
   app.add_flag("--append_record", flags.append_record,
                "append to the record of a process that ended before")
       ->needs(record);
@@ -55,14 +64,58 @@ void declare(CLI::App& app, Flags& flags) {
       "Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 the lab control died.");
 }
 
+/// The part of a list with `size` values for each of `vehicles` that belongs to vehicle `index`.
+/// @throws std::invalid_argument naming the flag
+template <class Value>
+std::vector<Value> share_of(const char* flag, const std::vector<Value>& all, std::size_t index,
+                            std::size_t size, std::size_t vehicles) {
+  if (all.empty()) return {};
+  if (all.size() != size * vehicles) {
+    throw std::invalid_argument(fmt::format("{}: {} numbers, must be {} for each of {} vehicles",
+                                            flag, all.size(), size, vehicles));
+  }
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(index * size);
+  return {begin, begin + static_cast<std::ptrdiff_t>(size)};
+}
+
+std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(const Flags& flags) {
+  hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
+  const std::size_t count = flags.vehicle_ids.size();
+  std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto id = static_cast<std::uint8_t>(flags.vehicle_ids[i]);
+    const auto seed = share_of("--noise_seed", flags.noise_seeds, i, 1, count);
+    vehicles.push_back(
+        {.vehicle_id = id,
+         .start = hlc::apps::start_pose(id, share_of("--pose", flags.pose, i, 3, count)),
+         .noise_seed = seed.empty() ? std::nullopt : std::optional(seed.front()),
+         .gains = scaled(hlc::tracking::FollowerGains{}, flags.gains_scale)});
+  }
+  return vehicles;
+}
+
+std::vector<std::string> record_files(const Flags& flags) {
+  constexpr std::string_view kPlace = "{id}";
+  std::vector<std::string> files;
+  if (flags.record.empty()) return files;
+  const std::size_t place = flags.record.find(kPlace);
+  if (place == std::string::npos && flags.vehicle_ids.size() > 1) {
+    throw std::invalid_argument("--record = " + flags.record +
+                                ", must contain {id} with several vehicles");
+  }
+  for (const int id : flags.vehicle_ids) {
+    files.push_back(flags.record);
+    if (place != std::string::npos) {
+      files.back().replace(place, kPlace.size(), std::to_string(id));
+    }
+  }
+  return files;
+}
+
 hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
-  const auto id = static_cast<std::uint8_t>(flags.vehicle_id);
   hlc::dds::check_domain_id("--dds_domain", flags.network.dds_domain);
   const hlc::Nanoseconds grace = flags.keep_running ? hlc::machine::kForever : hlc::kVehicleStays;
-  return {.vehicle = {.vehicle_id = id,
-                      .start = hlc::apps::start_pose(id, flags.pose),
-                      .noise_seed = flags.noise_seed,
-                      .gains = scaled(hlc::tracking::FollowerGains{}, flags.gains_scale)},
+  return {.vehicles = vehicles(flags),
           .version = hlc::apps::program_version(),
           .transport = hlc::dds::transport_from_name(flags.network.transport),
           .lab_domain = flags.network.dds_domain,
@@ -71,8 +124,10 @@ hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
           .rules = flags.network.simulated_time ? hlc::machine::logical_rules()
                                                 : hlc::machine::real_rules(grace),
           .keep_running = flags.keep_running,
+          .ticks_by_period = flags.network.simulated_time &&
+                             flags.network.transport == "loopback" && !flags.keep_running,
           .startup_timeout = flags.network.startup_timeout(),
-          .record_file = flags.record,
+          .record_files = record_files(flags),
           .append_record = flags.append_record};
 }
 
@@ -80,7 +135,7 @@ hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  CLI::App app{"A simulated µCar: follows commands and publishes its state, every 20 ms.",
+  CLI::App app{"Simulated µCars: follow commands and publish their states, every 20 ms.",
                "vehicle_sim"};
   Flags flags;
   declare(app, flags);

@@ -119,8 +119,13 @@ bool VehicleMachine::is_prepared(const Instant& now, Actions& actions) {
       return false;
     }
   }
-  ticks_.emplace(kVehiclePeriod, 0, now);
+  begin_ticks(options_.ticks_by_period ? start_up_.parameters().period() : kVehiclePeriod, now);
   return true;
+}
+
+/// The vehicle's own ticks where a period does not consist of them.
+void VehicleMachine::begin_ticks(Nanoseconds period, const Instant& now) {
+  ticks_.emplace(period % kVehiclePeriod == 0 ? period : kVehiclePeriod, 0, now);
 }
 
 std::string VehicleMachine::parameter_fault() const {
@@ -189,12 +194,11 @@ bool VehicleMachine::awaits_answer(const PendingTick& tick, const Instant& now, 
 }
 
 void VehicleMachine::run_tick(Nanoseconds t_now, Actions& actions) {
+  const bool is_by_period = ticks_->period() > kVehiclePeriod;
+  if (is_by_period) brake_if_stopped(actions);  // nothing of the period has happened yet
   make_up_for_missed_ticks(t_now, actions);
-  if (std::exchange(stop_symbol_, false)) {
-    actions.emplace_back(machine::info("stop"));
-    vehicle_.brake();
-    is_stopping_ = true;
-  }
+  brake_if_stopped(actions);
+  if (is_by_period && is_stopping_) begin_ticks(kVehiclePeriod, {.run = t_now + 1});
   const SimulatedVehicle::Tick done = vehicle_.tick(t_now);
   actions.emplace_back(done.driven);
   actions.emplace_back(done.state);
@@ -212,8 +216,25 @@ void VehicleMachine::make_up_for_missed_ticks(Nanoseconds t_now, Actions& action
   const Nanoseconds earliest = t_now - std::min(t_now, kMostMissedTicks * kVehiclePeriod);
   for (Nanoseconds t = std::max(*last_tick_ + kVehiclePeriod, earliest); t < t_now;
        t += kVehiclePeriod) {
-    actions.emplace_back(vehicle_.tick(t).driven);
+    const SimulatedVehicle::Tick done = vehicle_.tick(t);
+    actions.emplace_back(done.driven);
+    if (is_in_list(t)) actions.emplace_back(done.state);
+    log_why_it_stops(done, actions);
   }
+}
+
+/// The next list holds the state of this made-up tick.
+bool VehicleMachine::is_in_list(Nanoseconds t) const {
+  if (ticks_->period() == kVehiclePeriod) return false;
+  const Nanoseconds list = next_on_grid(t, ticks_->period(), kListOffset);
+  return newest_valid_state_stamp(list) == t;
+}
+
+void VehicleMachine::brake_if_stopped(Actions& actions) {
+  if (!std::exchange(stop_symbol_, false)) return;
+  actions.emplace_back(machine::info("stop"));
+  vehicle_.brake();
+  is_stopping_ = true;
 }
 
 void VehicleMachine::log_why_it_stops(const SimulatedVehicle::Tick& done, Actions& actions) {

@@ -24,6 +24,9 @@ struct VehicleMachineOptions {
   /// not answer before the start.
   bool is_among_lab_programs{};
   bool keep_running{};  ///< after a stop brake, then listen again instead of ending
+  /// Logical time, without readers but our middlewares: one tick a period stands for all since the
+  /// last one, and only the states that the lists hold are published.
+  bool ticks_by_period{};
   Nanoseconds startup_timeout{30 * kNanosecondsPerSecond};  ///< wall
 };
 
@@ -46,6 +49,9 @@ struct VehiclePresence {
 ///
 /// A tick that is too late is made up for (the plant must keep up with the clock), but its state is
 /// not published.
+///
+/// With ticks_by_period the tick at k * period makes up for those since the one before, until the
+/// stop symbol: the motion is the same, and the run has a tenth of the messages.
 ///
 /// The stop symbol: it brakes for a second, then ends (kExitGood), or listens again. Without the
 /// lab control it ends after the rules' grace period (kExitDied).
@@ -91,6 +97,9 @@ class VehicleMachine {
   [[nodiscard]] bool awaits_answer(const PendingTick& tick, const Instant& now, Actions& actions);
   [[nodiscard]] bool is_answered(Nanoseconds list) const;
   void run_tick(Nanoseconds t_now, Actions& actions);
+  void begin_ticks(Nanoseconds period, const Instant& now);
+  [[nodiscard]] bool is_in_list(Nanoseconds t) const;
+  void brake_if_stopped(Actions& actions);
   void make_up_for_missed_ticks(Nanoseconds t_now, Actions& actions);
   void log_why_it_stops(const SimulatedVehicle::Tick& done, Actions& actions);
   void watch_lab_control(Nanoseconds wall, Actions& actions);

@@ -59,12 +59,23 @@ TEST(Presence, RepeatedOrUnknownEventsChangeNothing) {
 
 TEST(Presence, NamesAreKnownWhileTheParticipantIsThere) {
   Presence presence;
-  EXPECT_EQ(presence.name_of({1}), nullptr);
+  EXPECT_TRUE(presence.names_of({1}).empty());
   presence.appeared({1}, "red");
-  ASSERT_NE(presence.name_of({1}), nullptr);
-  EXPECT_EQ(*presence.name_of({1}), "red");
+  EXPECT_EQ(presence.names_of({1}), std::vector<std::string>{"red"});
   presence.left({1});
-  EXPECT_EQ(presence.name_of({1}), nullptr);
+  EXPECT_TRUE(presence.names_of({1}).empty());
+}
+
+TEST(Presence, AParticipantOfSeveralVehiclesIsEachOfTheirProcesses) {
+  Presence presence;
+  presence.appeared({1}, "middleware_1,12", "revision 1");
+  presence.appeared({2}, "middleware_12");
+  EXPECT_EQ(presence.alive(), (Names{"middleware_1", "middleware_12"}));
+  EXPECT_EQ(presence.names_of({1}), (std::vector<std::string>{"middleware_1", "middleware_12"}));
+  EXPECT_EQ(presence.versions().size(), 2U);
+  presence.left({1});
+  EXPECT_EQ(presence.alive(), Names{"middleware_12"}) << "another one serves it, too";
+  EXPECT_EQ(presence.lost(), Names{"middleware_1"});
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(LabTypes, AllAreRegistered) {
 
 template <class Message>
 void expect_lab_type(const std::string& name) {
-  const auto type = type_support<Message>();
+  const auto type = type_support<Message>(Transport::kLab);
   EXPECT_EQ(type.get_type_name(), name);
   EXPECT_FALSE(type->m_isGetKeyDefined) << name << " has a key";
   EXPECT_TRUE(type->auto_fill_type_object()) << name;
@@ -72,9 +72,15 @@ TEST(LabTypes, HaveBareNamesNoKeysAndAnnounceTypeObjects) {
   expect_lab_type<Visualization>("Visualization");
 }
 
+TEST(LabTypes, AnnounceNoTypeObjectsAmongOurOwnProcesses) {
+  const auto type = type_support<VehicleStateList>(Transport::kLoopback);
+  EXPECT_FALSE(type->auto_fill_type_object());
+  EXPECT_FALSE(type->auto_fill_type_information());
+}
+
 template <class Message>
 void expect_own_type(const std::string& name, bool keyed) {
-  const auto type = type_support<Message>();
+  const auto type = type_support<Message>(Transport::kLab);
   EXPECT_EQ(type.get_type_name(), name);
   EXPECT_EQ(type->m_isGetKeyDefined, keyed) << name;
   EXPECT_FALSE(type->auto_fill_type_object()) << name;
@@ -97,7 +103,7 @@ template <class Message>
 std::uint32_t body_bytes(const Message& message) {
   typename Wire<Message>::Type wire;
   to_wire(message, wire);
-  return type_support<Message>()->getSerializedSizeProvider(&wire)() - 4;
+  return type_support<Message>(Transport::kLab)->getSerializedSizeProvider(&wire)() - 4;
 }
 
 TEST(LabTypes, HaveTheSizesOfTheLabsMessages) {

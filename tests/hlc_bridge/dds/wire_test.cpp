@@ -16,7 +16,7 @@ using Bytes = std::vector<unsigned char>;
 
 template <class Message>
 Bytes serialized(const Message& message) {
-  const auto type = type_support<Message>();
+  const auto type = type_support<Message>(Transport::kLab);
   typename Wire<Message>::Type wire;
   to_wire(message, wire);
   SerializedPayload payload{type->getSerializedSizeProvider(&wire)()};
@@ -26,7 +26,7 @@ Bytes serialized(const Message& message) {
 
 template <class Message>
 bool deserializes(const Bytes& bytes) {
-  const auto type = type_support<Message>();
+  const auto type = type_support<Message>(Transport::kLab);
   SerializedPayload payload{static_cast<std::uint32_t>(bytes.size())};
   std::copy(bytes.begin(), bytes.end(), payload.data);
   payload.length = static_cast<std::uint32_t>(bytes.size());
@@ -59,7 +59,7 @@ TYPED_TEST(WireTypes, DamagedBytesAreReadOrRefused) {
   const unsigned seed = 5;
   SCOPED_TRACE(seed);
   std::mt19937_64 random{seed};
-  const auto type = type_support<TypeParam>();
+  const auto type = type_support<TypeParam>(Transport::kLab);
   for (int i = 0; i < 2000; ++i) {
     Bytes bytes = serialized(sample<TypeParam>(random));
     const auto cut = random() % 2 == 0 ? bytes.size() : random() % (bytes.size() + 1);

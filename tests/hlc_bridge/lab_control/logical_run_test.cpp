@@ -185,6 +185,19 @@ TEST(LogicalRun, NothingIsReleasedBeforeAllAnswersOwedHaveCome) {
   EXPECT_EQ(run.pending_answers(), 2U);
 }
 
+TEST(LogicalRun, AProcessOfSeveralVehiclesAnswersForAllInOneMessage) {
+  LogicalRun run{settings({1, 2}, 20)};
+  run.trigger_readers(timers_of({1, 2}));
+  const std::vector<std::uint8_t> ids{1, 2};
+  run.ready({vehicle_name(ids), 0});
+  run.ready({middleware_name(ids), kListOffset});
+  EXPECT_THAT(run.advance(1).triggers, ElementsAre(0));
+  EXPECT_EQ(run.pending_answers(), 1U) << "a message, though of two vehicles";
+  run.ready({vehicle_name(ids), kPeriod});
+  EXPECT_THAT(run.advance(2).triggers, ElementsAre(kListOffset));
+  EXPECT_EQ(run.pending_answers(), 1U);
+}
+
 TEST(LogicalRun, ATickWaitsForTheReportsOfTheListBefore) {
   LogicalRun run{settings({1}, 20)};
   run.trigger_readers(timers_of({1}));

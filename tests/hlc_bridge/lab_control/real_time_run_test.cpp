@@ -86,6 +86,14 @@ TEST_F(RealTimeRunTest, WaitsForEachSingleOne) {
   EXPECT_THAT(run_.advance(kStart + 2).triggers, ElementsAre(kStart + 2 + kSecond));
 }
 
+TEST_F(RealTimeRunTest, AMiddlewareOfSeveralVehiclesIsReadyForAll) {
+  run_.trigger_readers(timers_of({1, 2}));
+  send_settled_states(1);
+  send_settled_states(2);
+  run_.ready({middleware_ready_id(std::vector<std::uint8_t>{1, 2}), 0});
+  EXPECT_THAT(run_.advance(kStart).triggers, ElementsAre(kStart + kSecond));
+}
+
 TEST_F(RealTimeRunTest, AVehicleIsReadyWhenItsStatesHaveSettled) {
   run_.presence(kAll, {});
   run_.trigger_readers(timers_of({1, 2}));

@@ -136,7 +136,7 @@ class LabEndpoints {
 class VehicleProcessTest : public testing::Test {
  protected:
   [[nodiscard]] VehicleProcessOptions options() const {
-    return {.vehicle = {.vehicle_id = kId, .start = kStart},
+    return {.vehicles = {{.vehicle_id = kId, .start = kStart}},
             .transport = dds::Transport::kLoopback,
             .lab_domain = domain_.first(),
             .time = machine::kLogicalTime,
