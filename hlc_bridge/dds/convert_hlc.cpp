@@ -234,21 +234,27 @@ Incoming<coordination::Traffic> from_wire(const TrafficMessage& wire) {
 }
 
 void to_wire(const coordination::Prediction& message, PredictionMessage& wire) {
-  const auto& [vehicle, step, is_new, areas] = message;
+  const auto& [vehicle, step, is_new, areas, desired] = message;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.is_new(is_new);
   wire.areas(areas_to_wire(areas));
+  wire.desires_more(desired.has_value());
+  wire.desired(areas_to_wire(desired.value_or(coordination::OccupiedAreas{})));
 }
 
 Incoming<coordination::Prediction> from_wire(const PredictionMessage& wire) {
-  if (!is_valid(VehicleId{wire.vehicle_id()}) || !is_valid(wire.areas())) {
+  if (!is_valid(VehicleId{wire.vehicle_id()}) || !is_valid(wire.areas()) ||
+      !is_valid(wire.desired())) {
     return {std::nullopt, 1};
   }
   return {coordination::Prediction{.vehicle = {wire.vehicle_id()},
                                    .step = {wire.step()},
                                    .is_new = wire.is_new(),
-                                   .areas = areas_from_wire(wire.areas())},
+                                   .areas = areas_from_wire(wire.areas()),
+                                   .desired = wire.desires_more()
+                                                  ? std::optional{areas_from_wire(wire.desired())}
+                                                  : std::nullopt},
           0};
 }
 

@@ -112,8 +112,9 @@ void CandidateSearch::set_max_expansions(std::size_t max_expansions) {
   if (former_) former_->engine.set_max_expansions(max_expansions);
 }
 
-search::SearchResult CandidateSearch::search(const search::HorizonProblem& problem) {
-  return current_.engine().search(problem);
+search::SearchResult CandidateSearch::search(const search::HorizonProblem& problem,
+                                             std::size_t budget_share) {
+  return current_.search(problem, budget_share);
 }
 
 std::uint64_t CandidateSearch::warm_up(const search::HorizonProblem& problem) {
@@ -133,7 +134,7 @@ PlanCandidate CandidateSearch::find(search::HorizonProblem problem, const Candid
 void CandidateSearch::search_on(EngineCache& on, const CandidateInputs& inputs,
                                 PlanCandidate& candidate, coordination::Report& report) {
   const automaton::Subgraph& subgraph = *on.on().subgraph;
-  const search::SearchResult result = on.engine().search(candidate.problems.back());
+  const search::SearchResult result = on.search(candidate.problems.back(), inputs.budget_share);
   add_figures(result, subgraph, report);
   if (result.status == search::SearchStatus::kFallback) {
     candidate.obstacle = result.reason == search::NoPath::kBudget

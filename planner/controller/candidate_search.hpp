@@ -18,6 +18,7 @@ struct CandidateInputs {
   StepIndex now;                                 ///< k; the plan is new from t(k+1) on
   const ConvexPolygon& reachable_area_m;         ///< as announced in this step's traffic
   const std::optional<vehicle::LabLimits>& lab;  ///< limits of the vehicle; absent: none
+  std::size_t budget_share{1};  ///< a search may use one expansion in so many of its budget
 };
 
 /// Result of the search for a new plan.
@@ -54,7 +55,9 @@ class CandidateSearch {
   void set_max_expansions(std::size_t max_expansions);
 
   /// One search, unchecked, on the current subgraph.
-  [[nodiscard]] search::SearchResult search(const search::HorizonProblem& problem);
+  /// @param budget_share  CandidateInputs
+  [[nodiscard]] search::SearchResult search(const search::HorizonProblem& problem,
+                                            std::size_t budget_share = 1);
   /// Searches for a fraction of a millisecond and drops the result.
   /// @return expansions
   std::uint64_t warm_up(const search::HorizonProblem& problem);

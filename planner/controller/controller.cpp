@@ -1,6 +1,7 @@
 #include "planner/controller/controller.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -232,10 +233,10 @@ search::HorizonProblem Controller::posed_alone(double end_s_m) const {
   return problem_in(entry_area() ? *entry_area() : route().corridor, end_s_m);
 }
 
-search::HorizonProblem Controller::pose_problem() const {
+search::HorizonProblem Controller::pose_problem(CoupledObstacleRule rule) const {
   search::HorizonProblem problem =
       posed_alone(authority_ ? authority_->end_s_m(tracker_.s_m().value()) : kNoEnd_m);
-  problem.obstacles_m = obstacles_m();
+  problem.obstacles_m = obstacles_m(rule);
   if (authority_) {
     if (const auto bar_m = authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint)) {
       for (auto& areas_m : problem.obstacles_m) areas_m.push_back(*bar_m);
@@ -260,12 +261,17 @@ coordination::Prediction Controller::plan(std::span<const coordination::Predicti
     tracker_.advance(step_.traffic.next_pose.position_m(), reach_m());
     update_drivable_area();
   }
-  if (may_plan()) search_candidate();
+  std::optional<coordination::OccupiedAreas> desired;
+  if (may_plan()) {
+    search_candidate();
+    desired = desired_areas();
+  }
   step_.prediction = {.vehicle = options_.vehicle,
                       .step = step_.observation.step,
                       .is_new = step_.candidate.plan.has_value(),
                       .areas = step_.candidate.plan ? std::move(step_.candidate.areas)
-                                                    : in_force_->announced_areas(step_.next())};
+                                                    : in_force_->announced_areas(step_.next()),
+                      .desired = std::move(desired)};
   return step_.prediction;
 }
 
@@ -292,19 +298,30 @@ void Controller::check_start() {
 }
 
 void Controller::search_candidate() {
-  step_.candidate = search_.find(pose_problem(),
+  const search::HorizonProblem own = pose_problem(options_.strategies.coordination.obstacles);
+  if (!make_room(own)) find_candidate(own, 1);
+  step_.obstacle = step_.candidate.obstacle;
+}
+
+/// The problems of former searches stay.
+bool Controller::find_candidate(search::HorizonProblem problem, std::size_t budget_share) {
+  std::vector<search::HorizonProblem> problems = std::move(step_.candidate.problems);
+  step_.candidate = search_.find(std::move(problem),
                                  {.in_force = *in_force_,
                                   .now = step_.observation.step,
                                   .reachable_area_m = step_.traffic.reachable_area_m,
-                                  .lab = options_.lab},
+                                  .lab = options_.lab,
+                                  .budget_share = budget_share},
                                  step_.report);
+  std::ranges::move(step_.candidate.problems, std::back_inserter(problems));
+  step_.candidate.problems = std::move(problems);
   if (authority_ && step_.candidate.plan &&
       !ends_along_lane(*step_.candidate.plan, in_force_->base(), step_.next(), tracker_,
                        reach_m())) {
     step_.candidate.plan.reset();
     step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
   }
-  step_.obstacle = step_.candidate.obstacle;
+  return step_.candidate.plan.has_value();
 }
 
 coordination::Outcome Controller::vote() const {

@@ -217,18 +217,24 @@ class Controller {
   void update_drivable_area();
   [[nodiscard]] LaneEntry find_lane_entry();
   [[nodiscard]] search::HorizonProblem posed_alone(double end_s_m = kNoEnd_m) const;
-  [[nodiscard]] search::HorizonProblem pose_problem() const;
+  [[nodiscard]] search::HorizonProblem pose_problem(CoupledObstacleRule rule) const;
   [[nodiscard]] CoupledVehicle coupled_vehicle(VehicleId other) const;
   [[nodiscard]] MissingVehicle missing_vehicle(VehicleId other) const;
   [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m(
-      std::span<const CoupledVehicle> coupled_vehicles,
+      std::span<const CoupledVehicle> coupled_vehicles, CoupledObstacleRule rule,
       std::span<const MissingVehicle> missing) const;
-  [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m() const;
+  [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m(CoupledObstacleRule rule) const;
   void note_opposed(std::span<const coordination::Outcome> outcomes);
+  [[nodiscard]] coordination::Plan plan_of(
+      const std::vector<const automaton::Maneuver*>& maneuvers) const;
   [[nodiscard]] std::optional<MotionAlone> motion_alone();
   [[nodiscard]] OtherVehicle as_obstacle(VehicleId coupled) const;
   [[nodiscard]] std::vector<OtherVehicle> other_vehicles() const;
   void search_candidate();
+  bool find_candidate(search::HorizonProblem problem, std::size_t budget_share);
+  [[nodiscard]] bool makes_room_for(const CoupledVehicle& other) const;
+  [[nodiscard]] bool make_room(const search::HorizonProblem& own);
+  [[nodiscard]] std::optional<coordination::OccupiedAreas> desired_areas();
   void note_awaited(std::span<const coordination::Prediction> predictions);
   [[nodiscard]] coordination::CommitVerdict decide(
       std::span<const coordination::Prediction> predictions,

@@ -30,15 +30,18 @@ using IncumbentRule = std::vector<const automaton::Maneuver*> (*)(
     const coordination::Plan& in_force, StepIndex next, std::size_t horizon_steps);
 
 /// When a new plan comes into force (commit.hpp), with the obstacles in planning that this relies
-/// on.
+/// on, and whether vehicles make room for those that plan before them (making_room.hpp).
 struct CoordinationRule {
   coordination::CommitRule commit;
   CoupledObstacleRule obstacles;
+  bool makes_room{};
   friend bool operator==(const CoordinationRule&, const CoordinationRule&) = default;
 };
 
 inline constexpr CoordinationRule kStrictCoordination{.commit = coordination::kStrictCommit,
                                                       .obstacles = &old_and_new_plans};
+inline constexpr CoordinationRule kCooperativeCoordination{
+    .commit = coordination::kStrictCommit, .obstacles = &old_and_new_plans, .makes_room = true};
 inline constexpr CoordinationRule kAgreedCoordination{
     .commit = coordination::kAgreedCommit, .obstacles = &predictions_and_standing_successors};
 
@@ -46,7 +49,7 @@ inline constexpr CoordinationRule kAgreedCoordination{
 /// vehicles of a run need the same.
 struct ControllerStrategies {
   coordination::PriorityRule plans_before{&coordination::smaller_id_first};
-  CoordinationRule coordination{kStrictCoordination};
+  CoordinationRule coordination{kCooperativeCoordination};
   IncumbentRule incumbent{&rest_of_plan_in_force};
   StandstillTimeoutRule standstill_timeout{&once_per_horizon};
   friend bool operator==(const ControllerStrategies&, const ControllerStrategies&) = default;

@@ -3,10 +3,14 @@
 #include <algorithm>
 
 #include "planner/controller/controller.hpp"
+#include "planner/controller/making_room.hpp"
 #include "planner/controller/self_loop.hpp"
 
 namespace hlc::controller {
 namespace {
+
+/// Costs are sums of squares of metres; rounding is far below.
+constexpr double kLeastGain_m2 = 1e-9;
 
 /// They prevent any motion beyond the end of the authority.
 void note_withheld(const std::vector<VehicleId>& by, std::vector<OtherVehicle>& others) {
@@ -69,19 +73,48 @@ void Controller::extend_authority() {
 }
 
 std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m(
-    std::span<const CoupledVehicle> coupled_vehicles,
+    std::span<const CoupledVehicle> coupled_vehicles, CoupledObstacleRule rule,
     std::span<const MissingVehicle> missing) const {
-  return controller::obstacles_m(coupled_vehicles, options_.strategies.coordination.obstacles,
-                                 missing, neighbours_.rules(), step_.observation.step,
-                                 options_.horizon_steps, subgraph().automaton().step_s);
+  return controller::obstacles_m(coupled_vehicles, rule, missing, neighbours_.rules(),
+                                 step_.observation.step, options_.horizon_steps,
+                                 subgraph().automaton().step_s);
 }
 
-std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m() const {
+std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m(CoupledObstacleRule rule) const {
   std::vector<CoupledVehicle> coupled_vehicles;
   for (const VehicleId other : coupled()) coupled_vehicles.push_back(coupled_vehicle(other));
   std::vector<MissingVehicle> missing;
   for (const VehicleId other : neighbours_.missing()) missing.push_back(missing_vehicle(other));
-  return obstacles_m(coupled_vehicles, missing);
+  return obstacles_m(coupled_vehicles, rule, missing);
+}
+
+bool Controller::makes_room_for(const CoupledVehicle& other) const {
+  return options_.strategies.coordination.makes_room && other.prediction != nullptr &&
+         other.prediction->desired.has_value();
+}
+
+bool Controller::make_room(const search::HorizonProblem& own) {
+  std::vector<const coordination::OccupiedAreas*> desired;
+  for (const VehicleId other : predecessors()) {
+    const CoupledVehicle one = coupled_vehicle(other);
+    if (makes_room_for(one)) desired.push_back(&*one.prediction->desired);
+  }
+  if (desired.empty()) return false;
+  const auto is_found_beyond = [&](std::size_t from) {
+    return find_candidate(making_room(own, desired, step_.next(), from), kMakingRoomShare);
+  };
+  return is_found_beyond(0) || is_found_beyond(options_.horizon_steps - 1);
+}
+
+std::optional<coordination::OccupiedAreas> Controller::desired_areas() {
+  const bool is_last = coupled().size() == predecessors().size();
+  if (!options_.strategies.coordination.makes_room || is_last) return std::nullopt;
+  const search::SearchResult result =
+      search_.search(pose_problem(&desired_plans_of_predecessors), kMakingRoomShare);
+  const bool is_better =
+      !step_.candidate.plan || result.cost < step_.report.cost_m2 - kLeastGain_m2;
+  if (result.maneuvers.empty() || !is_better) return std::nullopt;
+  return in_force_->areas_of(plan_of(result.maneuvers), step_.next());
 }
 
 void Controller::note_opposed(std::span<const coordination::Outcome> outcomes) {
@@ -92,29 +125,39 @@ void Controller::note_opposed(std::span<const coordination::Outcome> outcomes) {
   }
 }
 
+/// A plan found on the current subgraph.
+coordination::Plan Controller::plan_of(
+    const std::vector<const automaton::Maneuver*>& maneuvers) const {
+  const automaton::Subgraph& on = subgraph();
+  return in_force_->base().continued(step_.next(), maneuvers,
+                                     self_loop(on.automaton(), maneuvers.back()->to),
+                                     on.shared_automaton());
+}
+
 std::optional<MotionAlone> Controller::motion_alone() {
   if (!path_s_m()) return std::nullopt;
   const search::SearchResult result = search_.search(posed_alone());
   if (result.maneuvers.empty()) return std::nullopt;
-  const automaton::Subgraph& on = subgraph();
-  coordination::Plan plan = in_force_->base().continued(
-      step_.next(), result.maneuvers, self_loop(on.automaton(), result.maneuvers.back()->to),
-      on.shared_automaton());
+  coordination::Plan plan = plan_of(result.maneuvers);
   coordination::OccupiedAreas areas = in_force_->areas_of(plan, step_.next());
   return MotionAlone{.plan = std::move(plan), .areas = std::move(areas)};
 }
 
-/// Also the new plan that was only known when this vehicle committed to its own; without it,
-/// everything that the other one can reach.
+/// What planning kept clear of, a desired plan included; also the new plan that was only known when
+/// this vehicle committed to its own, or without it everything that the other one can reach.
 OtherVehicle Controller::as_obstacle(VehicleId coupled) const {
   const CoupledVehicle other = coupled_vehicle(coupled);
-  OtherVehicle result{.vehicle = coupled,
-                      .areas_m = obstacles_m({&other, 1}, {}),
-                      .prevents_all = holds(other.traffic->silent, options_.vehicle) ||
-                                      holds(step_.opposed, coupled)};
+  OtherVehicle result{
+      .vehicle = coupled,
+      .areas_m = obstacles_m({&other, 1}, options_.strategies.coordination.obstacles, {}),
+      .prevents_all =
+          holds(other.traffic->silent, options_.vehicle) || holds(step_.opposed, coupled)};
   const auto awaited = step_.awaited.find(coupled);
   const bool is_unknown = holds(step_.not_received, coupled);
   for (std::size_t j = 0; j < result.areas_m.size(); ++j) {
+    if (makes_room_for(other)) {
+      result.areas_m[j].push_back(other.prediction->desired->during({step_.next().value + j}));
+    }
     if (awaited != step_.awaited.end()) {
       result.areas_m[j].push_back(awaited->second.during({step_.next().value + j}));
     } else if (is_unknown) {
@@ -132,7 +175,7 @@ std::vector<OtherVehicle> Controller::other_vehicles() const {
     const bool is_unseen = missing.measured == nullptr;
     others.push_back({.vehicle = other,
                       .areas_m = is_unseen ? std::vector<std::vector<ConvexPolygon>>{}
-                                           : obstacles_m({}, {&missing, 1}),
+                                           : obstacles_m({}, nullptr, {&missing, 1}),
                       .prevents_all = is_unseen});
   }
   if (authority_) note_withheld(authority_->withheld_by(), others);

@@ -29,6 +29,14 @@ class EngineCache {
     engine_.reset();
   }
 
+  /// A search with 1 / `share` of the budget.
+  [[nodiscard]] search::SearchResult search(const search::HorizonProblem& problem,
+                                            std::size_t share) {
+    if (share == 1) return engine().search(problem);
+    std::size_t left = search_.max_expansions / share / search::kExpansionsPerStop;
+    return engine().search(problem, [&left] { return left-- == 0; });
+  }
+
   /// Valid until the next change of this object.
   [[nodiscard]] search::SearchEngine& engine() {
     if (!engine_) engine_ = make();

@@ -50,7 +50,8 @@ struct CommitInputs {
 /// reach. No vehicle needs to know what another one decided, so no third round of messages is
 /// needed for safety. Because every vehicle also plans around the old plans of those that plan
 /// after it, old_i stays a solution of its own problem: without a fault, and within its budget, the
-/// search always finds a plan.
+/// search always finds a plan. What it does not ensure is that anybody gets on: a vehicle is
+/// stopped by the plans in force of those that plan after it (see controller/making_room.hpp).
 ///
 /// All this refers to the areas that vehicles announce. The controller ensures that its vehicle
 /// stays inside its announced areas (planner/controller/plan_in_force.hpp); a vehicle that was

@@ -26,7 +26,9 @@ bool is_well_formed(const Traffic& traffic) {
 }
 
 bool is_well_formed(const Prediction& prediction) {
-  return are_well_formed(prediction.areas, {prediction.step.value + 1});
+  const StepIndex next{prediction.step.value + 1};
+  return are_well_formed(prediction.areas, next) &&
+         (!prediction.desired || are_well_formed(*prediction.desired, next));
 }
 
 const ConvexPolygon& OccupiedAreas::during(StepIndex step) const {

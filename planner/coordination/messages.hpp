@@ -55,6 +55,10 @@ struct Prediction {
   StepIndex step;       ///< k
   bool is_new{};        ///< false: no new plan; `areas` are those of the running plan
   OccupiedAreas areas;  ///< first = k + 1
+  /// Of the plan that the sender would drive if those that plan after it made room
+  /// (controller/making_room.hpp). Absent: it desires nothing else, or the rule knows no such
+  /// plans.
+  std::optional<OccupiedAreas> desired{};
 };
 
 /// False for an invalid message: an empty area (the sender would be nowhere), or areas that do not

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "planner/controller/controller_options.hpp"
@@ -24,13 +25,18 @@ struct Profile {
 /// | engine                    | branch_and_bound                | best_first                   |
 /// | cost-to-go                | admissible: plans are optimal   | the authors', inadmissible   |
 /// | priorities                | smaller id first                | smaller id first             |
-/// | coordination: new plans   | strict: safe whatever is lost   | agreed: as the authors did   |
-/// | come into force, and      |                                 |                              |
-/// | obstacles                 | old and new plans               | predictions, standing cars   |
+/// | coordination              | cooperative                     | agreed: as the authors did   |
+/// | - plans come into force   | strict: safe whatever is lost   | if nobody votes against      |
+/// | - obstacles               | old and new plans               | predictions, standing cars   |
+/// | - priorities mean         | room is made for who is before  | successors plan around       |
 /// | incumbent                 | rest of the plan in force       | none: the paper's counts     |
 /// | standstill timeout        | once per horizon                | none: the paper's drives     |
 ///
 /// @throws std::invalid_argument for any other name
 [[nodiscard]] Profile profile_from_name(const std::string& name);
+
+/// The coordination rules by name: `cooperative`, `strict` (the same without making room),
+/// `agreed`.
+[[nodiscard]] const std::map<std::string, controller::CoordinationRule>& coordination_rules();
 
 }  // namespace hlc::scenario

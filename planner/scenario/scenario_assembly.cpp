@@ -122,6 +122,9 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   scenario.reference_speed_mps = values.reference_speed_mps;
   scenario.contouring_weight = values.contouring_weight;
   scenario.profile = profile_from_name(choices.profile);
+  if (values.coordination) {
+    scenario.profile.strategies.coordination = coordination_rules().at(*values.coordination);
+  }
   scenario.search = choose_search(values, choices, scenario.profile);
   scenario.is_reconfigurable = values.is_reconfigurable;
   scenario.subgraph = inputs.subgraph;

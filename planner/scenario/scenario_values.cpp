@@ -109,6 +109,13 @@ CircleValues parse_circle(const Node& node) {
   return circle;
 }
 
+std::optional<std::string> read_coordination(const Node& node) {
+  if (!node.has("coordination")) return std::nullopt;
+  std::vector<std::string> names;
+  for (const auto& [name, rule] : coordination_rules()) names.push_back(name);
+  return node.required<std::string>("coordination", one_of(std::move(names)));
+}
+
 }  // namespace
 
 ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& path) {
@@ -121,6 +128,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8, above(0.0)),
       .contouring_weight = node.optional<double>("contouring_weight", 0.0,
                                                  between(0.0, controller::kMostContouringWeight)),
+      .coordination = read_coordination(node),
       .engine = read_engine(node),
       .max_expansions = read_max_expansions(node),
       .criterion_weights = read_criterion_weights(node),

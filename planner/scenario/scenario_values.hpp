@@ -60,7 +60,8 @@ struct ScenarioValues {
   std::size_t horizon_steps{};
   double reference_speed_mps{};
   double contouring_weight{};
-  std::optional<std::string> engine{};  ///< as choose_engine takes it
+  std::optional<std::string> coordination{};  ///< of coordination_rules; none: the profile's
+  std::optional<std::string> engine{};        ///< as choose_engine takes it
   std::size_t max_expansions{};
   std::vector<search::PlanningWeight> criterion_weights{};
   bool is_reconfigurable{};

@@ -11,6 +11,9 @@ namespace hlc::search {
 
 struct SearchTables;
 
+/// An engine asks whether to stop before the first expansion, and after so many more each time.
+inline constexpr std::size_t kExpansionsPerStop = 64;
+
 /// For `SearchEngine::search`: only the problem and the engine's own budget end the search.
 [[nodiscard]] inline bool never_stop() { return false; }
 
@@ -19,8 +22,8 @@ class SearchEngine {
  public:
   virtual ~SearchEngine() = default;
 
-  /// @param stop    called regularly, the first time before the first expansion; once it returns
-  /// true the search stops as if its budget were used up
+  /// @param stop    called every kExpansionsPerStop expansions; once it returns true the search
+  /// stops as if its budget were used up
   /// @param result  overwritten; its vectors keep their capacity, so that an engine that needs no
   /// other memory allocates nothing from the second call on
   virtual void search(const HorizonProblem& problem, const std::function<bool()>& stop,

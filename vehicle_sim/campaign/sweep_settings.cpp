@@ -33,6 +33,10 @@ void set_contouring_weight(const SweepValue& value, scenario::Scenario& scenario
   scenario.contouring_weight = value.number;
 }
 
+void set_coordination(const SweepValue& value, scenario::Scenario& scenario) {
+  scenario.profile.strategies.coordination = scenario::coordination_rules().at(value.text);
+}
+
 void set_reference_rule(const SweepValue& value, scenario::Scenario& scenario) {
   scenario.profile.reference_rule =
       value.text == "2022" ? road::half_speed_last : road::mean_speed_first;
@@ -45,6 +49,7 @@ const std::vector<SweepSetting>& sweep_settings() {
   using Value = SweepValue;
   static const std::vector<SweepSetting> all{
       {kProfileSetting, false, one_of({"default", "2022"}), {}, {}},
+      {"coordination", false, one_of({"agreed", "cooperative", "strict"}), {}, set_coordination},
       {"reference_rule", false, one_of({"2022", "later"}), {}, set_reference_rule},
       {"search", false, one_of({"branch_and_bound", "best_first", "2022"}), {}, set_search},
       {"reference_speed_mps", true, above(0.0, 100.0), {}, set_reference_speed},

@@ -21,7 +21,8 @@ struct SweepValue {
 ///
 /// | name                  | value                                                               |
 /// |-----------------------|---------------------------------------------------------------------|
-/// | `profile`             | `default`, `2022`; the next two replace single rules of it          |
+/// | `profile`             | `default`, `2022`; the next three replace single rules of it        |
+/// | `coordination`        | `cooperative`, `strict`, `agreed`: scenario key                     |
 /// | `reference_rule`      | `2022`, `later`: spacing of the reference points                    |
 /// | `search`              | `branch_and_bound`, `best_first` (both optimal), `2022` (the        |
 /// |                       | authors' cost-to-go, inadmissible)                                  |

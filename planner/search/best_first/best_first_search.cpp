@@ -11,9 +11,6 @@
 namespace hlc::search {
 namespace {
 
-/// Expansions between two checks of the stop condition.
-constexpr std::size_t kStopInterval = 64;
-
 /// For programmer's mistakes only; see the preconditions in the header.
 bool is_well_formed(const HorizonProblem& problem, const automaton::ReachableSets& reachable,
                     CostToGo kind) {
@@ -81,7 +78,7 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
       end_at_goal(taken.vertex, problem, has_incumbent, result);
       break;
     }
-    const bool is_stop_requested = result.expanded % kStopInterval == 0 && stop();
+    const bool is_stop_requested = result.expanded % kExpansionsPerStop == 0 && stop();
     if (result.expanded == options_.max_expansions || is_stop_requested) {
       // Every other entry of the open list has no smaller f.
       const double open_cost = taken.cost_estimate + static_cast<double>(n) * costs_.least();

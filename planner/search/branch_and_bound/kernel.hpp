@@ -367,7 +367,7 @@ void stop_early(Search& search, std::size_t depth, double bound) {
   search.stopped_early = true;
 }
 
-/// Expansions between two checks of the stop condition.
+/// kExpansionsPerStop of search_engine.hpp, which this file cannot include.
 constexpr std::uint64_t kStopInterval = 64;
 
 /// Number of expansions before the next check.

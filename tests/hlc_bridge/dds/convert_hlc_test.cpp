@@ -120,6 +120,9 @@ TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
     auto prediction = good<coordination::Prediction>();
     prediction.areas.areas_m.push_back(polygon);
     EXPECT_TRUE(is_refused(prediction));
+    auto desiring = good<coordination::Prediction>();
+    desiring.desired = coordination::OccupiedAreas{.areas_m = {polygon}};
+    EXPECT_TRUE(is_refused(desiring));
   }
 }
 

@@ -133,8 +133,8 @@ void put_message(std::ostream& out, const coordination::Traffic& value) {
   put_all(out, a, b, c, d, e, f, g, h.has_value(), h.value_or(coordination::LaneClaim{}));
 }
 void put_message(std::ostream& out, const coordination::Prediction& value) {
-  const auto& [a, b, c, d] = value;
-  put_all(out, a, b, c, d);
+  const auto& [a, b, c, d, e] = value;
+  put_all(out, a, b, c, d, e.has_value(), e.value_or(coordination::OccupiedAreas{}));
 }
 void put_message(std::ostream& out, const coordination::Outcome& value) {
   const auto& [a, b, c] = value;
@@ -443,7 +443,11 @@ coordination::Traffic sample(Random& random) {
 
 template <>
 coordination::Prediction sample(Random& random) {
-  return {vehicle(random), {random()}, coin(random), areas(random)};
+  return {vehicle(random),
+          {random()},
+          coin(random),
+          areas(random),
+          coin(random) ? std::optional{areas(random)} : std::nullopt};
 }
 
 template <>

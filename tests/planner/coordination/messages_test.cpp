@@ -37,6 +37,10 @@ TEST(Messages, AnEmptyAreaOrAWrongBeginIsNotWellFormed) {
   EXPECT_FALSE(is_well_formed(late)) << "a prediction begins at the next step";
   late.areas.first = {6};
   EXPECT_TRUE(is_well_formed(late));
+  late.desired = traffic.running;
+  EXPECT_FALSE(is_well_formed(late)) << "a desired plan, too";
+  late.desired->first = {6};
+  EXPECT_TRUE(is_well_formed(late));
 }
 
 TEST(Messages, AClaimThatIsNoPlaceIsNotWellFormed) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "planner/rollout/rollout.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
@@ -20,7 +21,9 @@ namespace {
 
 using test::plans_in_force_are_free;
 
-const controller::ControllerStrategies kStrict{};
+const controller::ControllerStrategies kStrict{.coordination = controller::kStrictCoordination};
+const controller::ControllerStrategies kCooperative{.coordination =
+                                                        controller::kCooperativeCoordination};
 const controller::ControllerStrategies kAgreed{.coordination = controller::kAgreedCoordination};
 
 std::shared_ptr<const automaton::Subgraph> paper_subgraph() {
@@ -64,19 +67,28 @@ void lose_pattern(Rollout& rollout, std::uint32_t pattern, StepIndex step) {
   });
 }
 
-/// Which vehicles keep their plan and which change it, over all patterns: shows that the step is a
-/// hard one.
-class LossOfOneStep : public testing::TestWithParam<int> {};
+struct LossCase {
+  std::string name;
+  controller::ControllerStrategies strategies;
+  int steps_before;
+};
 
+class LossOfOneStep : public testing::TestWithParam<LossCase> {};
+
+// Which vehicles keep their plan and which change it, over all patterns, shows that the step is a
+// hard one. In the next step a random pattern is lost.
 TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
-  Rollout before = three_cars_that_meet(kStrict);
-  for (int i = 0; i < GetParam(); ++i) static_cast<void>(before.step());
+  Rollout before = three_cars_that_meet(GetParam().strategies);
+  for (int i = 0; i < GetParam().steps_before; ++i) static_cast<void>(before.step());
   ASSERT_TRUE(plans_in_force_are_free(before));
 
+  constexpr unsigned kSeed = 1;
+  std::mt19937 random(kSeed);
   std::map<std::string, int> outcomes;
   constexpr std::uint32_t kPatterns =
       1U << 12U;  // traffic and predictions; strict needs no third round
   for (std::uint32_t pattern = 0; pattern < kPatterns; pattern += test::kThinning) {
+    const std::uint32_t next_pattern = static_cast<std::uint32_t>(random()) % kPatterns;
     Rollout rollout = before.clone();
     lose_pattern(rollout, pattern, rollout.next_step());
     std::string outcome;
@@ -85,20 +97,30 @@ TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
     }
     ++outcomes[outcome];
     ASSERT_TRUE(plans_in_force_are_free(rollout)) << "pattern " << pattern;
+    lose_pattern(rollout, next_pattern, rollout.next_step());
     static_cast<void>(rollout.step());
-    ASSERT_TRUE(plans_in_force_are_free(rollout)) << "a step after pattern " << pattern;
+    ASSERT_TRUE(plans_in_force_are_free(rollout))
+        << "pattern " << next_pattern << " after " << pattern << ", seed " << kSeed;
+    static_cast<void>(rollout.step());
+    ASSERT_TRUE(plans_in_force_are_free(rollout))
+        << "a step after " << pattern << " and " << next_pattern << ", seed " << kSeed;
   }
   EXPECT_EQ(outcomes.size(), 8U) << "every mixture of old and new plans should occur";
 }
 
-INSTANTIATE_TEST_SUITE_P(Steps, LossOfOneStep, testing::Values(3, 5));
+INSTANTIATE_TEST_SUITE_P(Rules, LossOfOneStep,
+                         testing::Values(LossCase{"Strict3", kStrict, 3},
+                                         LossCase{"Strict5", kStrict, 5},
+                                         LossCase{"Cooperative3", kCooperative, 3},
+                                         LossCase{"Cooperative5", kCooperative, 5}),
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
   for (unsigned seed = 0; seed < test::num_costly_seeds(20); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     std::bernoulli_distribution is_lost(0.02 + 0.02 * (seed % 20));
-    Rollout rollout = three_cars_that_meet(kStrict);
+    Rollout rollout = three_cars_that_meet(kCooperative);
     rollout.lose([&](const controller::Delivery&) { return is_lost(random); });
     for (int i = 0; i < 40; ++i) {
       static_cast<void>(rollout.step());
@@ -115,7 +137,7 @@ TEST(Loss, TwoThatDoNotHearEachOtherForLongDoNotMeet) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> distance(0.6, 1.4);
     const std::array<double, 3> distances{distance(random), distance(random), distance(random)};
-    Rollout rollout = three_cars_that_meet(kStrict, distances);
+    Rollout rollout = three_cars_that_meet(kCooperative, distances);
     rollout.lose([](const controller::Delivery&) { return true; });
     for (int i = 0; i < 40; ++i) {
       static_cast<void>(rollout.step());
@@ -130,7 +152,7 @@ TEST(Loss, AVehicleThatIsHeardByNobodyIsNotHit) {
   for (std::uint8_t mute = 1; mute <= 3; ++mute) {
     for (std::uint64_t from = 2; from < 8; ++from) {
       SCOPED_TRACE("vehicle " + std::to_string(mute) + " mute from step " + std::to_string(from));
-      Rollout rollout = three_cars_that_meet(kStrict);
+      Rollout rollout = three_cars_that_meet(kCooperative);
       rollout.lose([&](const controller::Delivery& delivery) {
         return delivery.from.value == mute && delivery.step.value >= from;
       });
@@ -143,7 +165,7 @@ TEST(Loss, AVehicleThatIsHeardByNobodyIsNotHit) {
 }
 
 TEST(Loss, WithoutLossTheStrictRuleNeverFallsBack) {
-  Rollout rollout = three_cars_that_meet(kStrict);
+  Rollout rollout = three_cars_that_meet(kCooperative);
   for (int i = 0; i < 40; ++i) {
     for (const coordination::Report& report : rollout.step()) {
       ASSERT_EQ(report.status, coordination::StepStatus::kPlanned)

@@ -1,6 +1,7 @@
 // Every planning step of a run can be replayed from its file.
 #include "planner/scenario/problem_dump.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -109,8 +110,10 @@ TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
     const search::SearchResult again = solved(file, reachable, file.search.engine);
     counts[step].first += again.generated;
     counts[step].second += again.expanded;
-    const bool is_last = !files.contains(path.parent_path() / (step + "_search_2.json")) ||
-                         path.stem().string().ends_with("_2");
+    const int number =
+        std::stoi(path.stem().string().substr(step.size() + std::string("_search_").size()));
+    const bool is_last =
+        !files.contains(path.parent_path() / fmt::format("{}_search_{}.json", step, number + 1));
     if (decision.report.status == coordination::StepStatus::kPlanned && is_last) {
       EXPECT_EQ(again.cost, decision.report.cost_m2);
       EXPECT_EQ(trims_of(again), decision.trims);

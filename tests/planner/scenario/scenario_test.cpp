@@ -73,6 +73,10 @@ TEST_F(ScenarioErrors, CriterionWeightsAreOfTheAutomatonsCriteriaAndNotNegative)
 
 TEST_F(ScenarioErrors, AContouringWeightIsNotNegative) {
   EXPECT_EQ(error_of("horizon_steps: 8", "contouring_weight: 150"), "");
+  EXPECT_EQ(error_of("horizon_steps: 8", "coordination: strict"), "");
+  EXPECT_THAT(
+      error_of("horizon_steps: 8", "coordination: polite"),
+      HasSubstr(".yaml:7: coordination = polite, must be one of agreed, cooperative, strict"));
   EXPECT_THAT(error_of("horizon_steps: 8", "contouring_weight: -1"),
               HasSubstr(".yaml:7: contouring_weight = -1, must be a number >= 0 and <= 10000"));
 }
@@ -267,6 +271,8 @@ TEST(ScenarioSearch, TheProfileSaysByWhichRulesControllersPlanAndAgree) {
   EXPECT_EQ(strategies("default"), controller::ControllerStrategies{});
   const controller::ControllerStrategies of_2022 = strategies("2022");
   EXPECT_EQ(of_2022.coordination, controller::kAgreedCoordination);
+  EXPECT_EQ(read_scenario(three_cars("default")).profile.strategies.coordination,
+            controller::kCooperativeCoordination);
   EXPECT_EQ(of_2022.incumbent, &controller::no_incumbent) << "its counts are to be the paper's";
   EXPECT_EQ(of_2022.standstill_timeout, &controller::no_timeout)
       << "its drives are to be the paper's";

@@ -88,7 +88,8 @@ TEST(Sweep, OfTheFilesOwnSettingsDrivesAsThePlainCampaign) {
 
 TEST(Sweep, EverySettingReachesTheScenario) {
   const Sweep sweep = built_sweep(
-      "subgraphs: [B]\nsteps: 30\nsettings: {profile: [default], drivable: [everywhere], "
+      "subgraphs: [B]\nsteps: 30\nsettings: {profile: [default], coordination: [strict], drivable: "
+      "[everywhere], "
       "reference_rule: ['2022'], search: ['2022'], reference_speed_mps: [0.7], contouring_weight: "
       "[50], wheelbase_m: "
       "[0.2], acceleration_mps2: [14], steering_rate_radps: [8], width_m: [0.1], "
