@@ -155,8 +155,11 @@ class FaultRun {
 
   /// Vehicles whose processes are all present. Without the lab control all make a minimal-risk
   /// stop, and an experiment that has not begun does not begin while a process is missing.
+  /// The next lab control starts nothing before all have come back: those on standby wait for that
+  /// start if nobody is left whose run they can join.
   [[nodiscard]] std::vector<std::uint8_t> able_vehicles() {
     std::vector<std::uint8_t> able;
+    std::vector<std::uint8_t> waiting;
     const bool is_complete_lab = std::ranges::all_of(
         lab_.slots(), [](const ProcessSlot& slot) { return slot.process != nullptr; });
     if (!lab_.slots().front().process || !(is_complete_lab || monitor_.has_begun())) return able;
@@ -166,14 +169,14 @@ class FaultRun {
       const bool is_complete = std::ranges::all_of(lab_.slots(), [id](const ProcessSlot& one) {
         return one.key.vehicle != id || one.process;
       });
+      if (slot.key.role != Role::kVehicle || !is_complete) continue;
       const bool waits_for_start = is_lab_control_killed() && monitor_.is_on_standby(id);
-      if (slot.key.role == Role::kVehicle && is_complete && !waits_for_start) able.push_back(id);
+      (waits_for_start ? waiting : able).push_back(id);
     }
+    if (!able.empty()) able.insert(able.end(), waiting.begin(), waiting.end());
     return able;
   }
 
-  /// The next one starts nothing before all have come back: whose controller returned in between
-  /// has no lab control and waits for that start.
   [[nodiscard]] bool is_lab_control_killed() const {
     return std::ranges::any_of(settings_.faults, [](const Fault& fault) {
       return fault.kind == FaultKind::kKill && fault.process == kLabControlName;
