@@ -23,6 +23,13 @@ void OperatorNotes::note_step(const controller::Controller& controller,
   }
   is_off_route_logged_ = is_off_route;
   is_budget_logged_ |= is_over_budget;
+  const bool stays =
+      controller.is_cut_off() && report.reason == coordination::FallbackReason::kMissing;
+  cut_off_steps_ = stays ? cut_off_steps_ + 1 : 0;
+  if (cut_off_steps_ == coordination::kSilentSteps) {
+    actions.warn(
+        "vehicle stays until another controller is received: none is, and one of them may drive");
+  }
   if (const auto line = stuck_.note(report, controller.subgraph().automaton().step_s)) {
     actions.warn(*line);
   }

@@ -17,7 +17,8 @@ class OperatorNotes {
 
   /// Why the vehicle keeps its former plan, where that may last. An exhausted budget is logged once
   /// in a run; the summary counts how often.
-  /// Also that the vehicle has become stuck (coordination/waiting.hpp).
+  /// Also that the vehicle has become stuck (coordination/waiting.hpp), or stays because no other
+  /// controller has been received for kSilentSteps (coordination/missing.hpp).
   void note_step(const controller::Controller& controller, const coordination::Report& report,
                  HlcActions& actions);
 
@@ -28,6 +29,7 @@ class OperatorNotes {
   std::optional<bool> logged_fit_;  ///< whether the vehicle fits, as last logged
   bool is_off_route_logged_{};
   bool is_budget_logged_{};
+  std::uint64_t cut_off_steps_{};  ///< consecutive, in which the vehicle was kept from driving off
   coordination::StuckNotice stuck_;
   std::string last_fault_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "planner/automaton/deviation.hpp"
@@ -275,21 +274,15 @@ coordination::Prediction Controller::plan(std::span<const coordination::Predicti
   return step_.prediction;
 }
 
-void Controller::respect_predecessors(std::span<const coordination::Prediction> received) {
-  for (const VehicleId other : step_.predecessors) {
-    if (const coordination::Prediction* message =
-            find_message(received, other, step_.observation.step)) {
-      step_.respected[other] = *message;
-    }
-  }
-}
-
 /// Whether a plan may start at the vehicle's predicted pose.
 void Controller::check_start() {
   const bool is_any_unknown = std::ranges::any_of(neighbours_.missing(), [this](VehicleId other) {
     return step_.observation.measured(other) == nullptr;  // it may be anywhere
   });
   if (is_any_unknown) step_.obstacle = coordination::FallbackReason::kMissing;
+  // missing.hpp; a plan in force that begins with standing counts as standing.
+  const bool stands = subgraph().automaton().trims[step_.traffic.next_trim.index].is_equilibrium();
+  if (stands && is_cut_off()) step_.obstacle = coordination::FallbackReason::kMissing;
   // A disabled trim may have no way out, or a long one.
   if (step_.obstacle == coordination::FallbackReason::kNone &&
       subgraph().distance_to_standstill(step_.traffic.next_trim) > options_.horizon_steps) {
@@ -328,23 +321,6 @@ coordination::Outcome Controller::vote() const {
   return {.vehicle = options_.vehicle,
           .step = step_.observation.step,
           .wants_fallback = !step_.candidate.plan.has_value()};
-}
-
-std::vector<Controller::AnnouncedPlan> Controller::announced_plans() const {
-  std::vector<AnnouncedPlan> plans;
-  for (const coordination::Traffic* traffic : neighbours_.received()) {
-    const VehicleId other = traffic->vehicle;
-    const auto respected = step_.respected.find(other);
-    const auto awaited = step_.awaited.find(other);
-    if (respected != step_.respected.end() && respected->second.is_new) {
-      plans.push_back({other, respected->second.areas});
-    } else if (awaited != step_.awaited.end()) {
-      plans.push_back({other, awaited->second});
-    } else {
-      plans.push_back({other, traffic->running});
-    }
-  }
-  return plans;
 }
 
 coordination::CommitVerdict Controller::decide(

@@ -177,6 +177,8 @@ class Controller {
   }
   /// In the last step the vehicle was to be sent nothing (rule 5 of plan_in_force.hpp).
   [[nodiscard]] bool is_vehicle_lost() const { return step_.is_vehicle_lost; }
+  /// Nobody was received in the last step: the vehicle does not drive off (missing.hpp).
+  [[nodiscard]] bool is_cut_off() const { return neighbours_.is_cut_off(options_.horizon_steps); }
   [[nodiscard]] const coordination::Plan& plan_in_force() const { return in_force_->plan(); }
 
  private:

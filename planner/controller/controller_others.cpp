@@ -33,6 +33,15 @@ CoupledVehicle Controller::coupled_vehicle(VehicleId other) const {
           .is_predecessor = options_.strategies.plans_before(other, options_.vehicle)};
 }
 
+void Controller::respect_predecessors(std::span<const coordination::Prediction> received) {
+  for (const VehicleId other : step_.predecessors) {
+    if (const coordination::Prediction* message =
+            find_message(received, other, step_.observation.step)) {
+      step_.respected[other] = *message;
+    }
+  }
+}
+
 MissingVehicle Controller::missing_vehicle(VehicleId other) const {
   return {.measured = step_.observation.measured(other),
           .stands_for_good = neighbours_.stands_for_good(other, options_.horizon_steps)};
@@ -117,6 +126,23 @@ std::optional<coordination::OccupiedAreas> Controller::desired_areas() {
   return in_force_->areas_of(plan_of(result.maneuvers), step_.next());
 }
 
+std::vector<Controller::AnnouncedPlan> Controller::announced_plans() const {
+  std::vector<AnnouncedPlan> plans;
+  for (const coordination::Traffic* traffic : neighbours_.received()) {
+    const VehicleId other = traffic->vehicle;
+    const auto respected = step_.respected.find(other);
+    const auto awaited = step_.awaited.find(other);
+    if (respected != step_.respected.end() && respected->second.is_new) {
+      plans.push_back({other, respected->second.areas});
+    } else if (awaited != step_.awaited.end()) {
+      plans.push_back({other, awaited->second});
+    } else {
+      plans.push_back({other, traffic->running});
+    }
+  }
+  return plans;
+}
+
 void Controller::note_opposed(std::span<const coordination::Outcome> outcomes) {
   for (const VehicleId other : step_.component) {
     if (other == options_.vehicle) continue;
@@ -172,11 +198,11 @@ std::vector<OtherVehicle> Controller::other_vehicles() const {
   for (const VehicleId other : coupled()) others.push_back(as_obstacle(other));
   for (const VehicleId other : neighbours_.missing()) {
     const MissingVehicle missing = missing_vehicle(other);
-    const bool is_unseen = missing.measured == nullptr;
+    const bool prevents_all = missing.measured == nullptr || is_cut_off();
     others.push_back({.vehicle = other,
-                      .areas_m = is_unseen ? std::vector<std::vector<ConvexPolygon>>{}
-                                           : obstacles_m({}, nullptr, {&missing, 1}),
-                      .prevents_all = is_unseen});
+                      .areas_m = prevents_all ? std::vector<std::vector<ConvexPolygon>>{}
+                                              : obstacles_m({}, nullptr, {&missing, 1}),
+                      .prevents_all = prevents_all});
   }
   if (authority_) note_withheld(authority_->withheld_by(), others);
   return others;

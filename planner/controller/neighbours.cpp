@@ -1,6 +1,5 @@
 #include "planner/controller/neighbours.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace hlc::controller {
@@ -97,6 +96,12 @@ bool Neighbours::stands_for_good(VehicleId vehicle, std::size_t horizon_steps) c
                                         .last_sign_of_life = last_sign_of_life_.at(vehicle),
                                         .last_not_standing = last_not_standing_.at(vehicle)},
                                        horizon_steps);
+}
+
+bool Neighbours::is_cut_off(std::size_t horizon_steps) const {
+  return received().empty() && std::ranges::any_of(missing_, [&](VehicleId other) {
+           return traffic_.contains(other) && !stands_for_good(other, horizon_steps);
+         });
 }
 
 }  // namespace hlc::controller

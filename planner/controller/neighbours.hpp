@@ -69,6 +69,9 @@ class Neighbours {
   [[nodiscard]] const std::vector<VehicleId>& missing() const { return missing_; }
   /// Whether a missing vehicle is a standing obstacle. @pre it is one of `missing`
   [[nodiscard]] bool stands_for_good(VehicleId vehicle, std::size_t horizon_steps) const;
+  /// No active vehicle is received, although one was once that does not stand for good: these
+  /// controllers may receive this one no longer, and take it for one that stands for good.
+  [[nodiscard]] bool is_cut_off(std::size_t horizon_steps) const;
 
  private:
   void forget_if_steps_are_missing();

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "planner/coordination/messages.hpp"
 #include "planner/geometry/footprint.hpp"
 
@@ -57,9 +55,14 @@ struct Silence {
 /// commit to a plan with others, and drive off at any time; and two vehicles that do not receive
 /// each other would both consider the other an obstacle, and drive off at once. So a vehicle whose
 /// process is still present is missing for as long as it is silent, and the others avoid it.
-/// Assumption: a controller that nobody receives on the controllers' network and that shows no sign
-/// of life on the lab's for this long cannot command its vehicle either, since commands use the
-/// lab's network.
+///
+/// A controller that has lost all others although it still commands its vehicle does not drive off:
+/// as long as it receives nobody, and one of those that it has received before does not stand for
+/// good, it plans nothing new from standstill (seed 8592 in found_fault_test.cpp).
+/// Assumption: two groups of controllers, each of which receives its own members only, still see
+/// each other present on the lab's network; and a controller that was started again receives
+/// somebody, or nobody drives. Otherwise it cannot command its vehicle either, since commands use
+/// the lab's network.
 [[nodiscard]] bool stands_for_good(const Silence& silence, std::size_t horizon_steps);
 
 /// The footprint of a standing vehicle with its margin.

@@ -24,7 +24,9 @@ enum class FallbackReason : std::uint8_t {
   /// The search exhausted its expansions before it found a plan; or, for a standing vehicle, the
   /// search of a way into its lanes (lane_entry.hpp) did so when it departed.
   kBudget,
-  kMissing,     ///< a coupled vehicle was silent and its reachable set leaves no room
+  /// A coupled vehicle was silent and its reachable set leaves no room; or a standing vehicle
+  /// receives nobody (missing.hpp).
+  kMissing,
   kConflict,    ///< the new plan meets another vehicle's new or running plan
   kNeighbour,   ///< commit rule `agreed`: a vehicle of the same component fell back
   kDeviation,   ///< the own vehicle is too far from its planned pose, or not seen

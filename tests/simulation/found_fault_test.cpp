@@ -293,5 +293,25 @@ TEST(FoundFault, Seed4412APlanMayBeDrivenWithoutAReport) {
         .process = controller_name(1)}});
 }
 
+/// No controller received vehicle 2's, which stood still until its lease had ended and then
+/// received none either. They took it for one that stands for good, and it drove off.
+TEST(FoundFault, Seed8592WhoIsCutOffFromAllOthersDoesNotDriveOff) {
+  const auto cut = [](std::uint8_t to, Nanoseconds begin) {
+    return Fault{.kind = FaultKind::kCut,
+                 .begin = begin,
+                 .end = 14'000 * kMs,
+                 .process = controller_name(2),
+                 .peer = controller_name(to)};
+  };
+  run(paper(4, 0x9b47d0f569543efd), {.seed = 8592, .transport = Transport::kLoopback},
+      {cut(3, 579'345'047),
+       {.kind = FaultKind::kFreeze,
+        .begin = 4'266'679'954,
+        .end = 9'716'774'924,
+        .process = controller_name(2)},
+       cut(1, 4'266'679'954),
+       cut(4, 4'266'679'954)});
+}
+
 }  // namespace
 }  // namespace hlc::closed_loop

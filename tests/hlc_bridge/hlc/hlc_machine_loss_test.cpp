@@ -152,5 +152,33 @@ TEST(HlcMachineLoss, SaysWhoseListsDoNotComeThoughItIsThere) {
   EXPECT_FALSE(one.exit_code());
 }
 
+TEST(HlcMachineLoss, StaysAndLogsItOnceWhileNoOtherControllerIsReceived) {
+  const std::vector<coordination::MeasuredVehicle> both{
+      controller::east_bound::seen(1, 0.0, 0.0), controller::east_bound::seen(2, 0.0, 2.0, 0.5)};
+  DrivenMachine one(real_time());
+  one.on(peers({2}));
+  start(one, both);
+  one.next_list(both);
+  const ConvexPolygon near = footprint_area({1.0, 1.0}, {});
+  one.on(coordination::Traffic{.vehicle = {2},
+                               .step = {one.step()},
+                               .running = {.first = {one.step()}, .final_area_m = near},
+                               .reachable_area_m = near,
+                               .silent = {{1}}});  // else car 1 would drive off
+  one.pass(kPeriod / 2);
+  one.forget();
+  for (std::uint64_t i = 1; i < coordination::kSilentSteps; ++i) one.next_list(both);
+  one.pass(kPeriod / 2);
+  EXPECT_FALSE(one.has_logged("stays until"));
+  one.next_list(both);
+  one.pass(kPeriod / 2);
+  EXPECT_TRUE(one.has_logged("vehicle stays until another controller is received"));
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kFallback);
+  one.forget();
+  one.next_list(both);
+  one.pass(kPeriod / 2);
+  EXPECT_FALSE(one.has_logged("stays until"));
+}
+
 }  // namespace
 }  // namespace hlc::high_level_controller::hlc_machine_loss_test

@@ -93,5 +93,20 @@ TEST_F(NeighboursTest, StepsInWhichNobodyWasLookedAtShowNobodyStanding) {
   EXPECT_TRUE(neighbours_.stands_for_good({3}, kHorizon));
 }
 
+TEST_F(NeighboursTest, WhoReceivesNobodyIsCutOffUnlessAllStandForGood) {
+  for (int i = 0; i < 20; ++i) step({}, {{2}});
+  EXPECT_FALSE(neighbours_.is_cut_off(kHorizon));  // nobody was ever received
+  step({2, 3});
+  EXPECT_FALSE(neighbours_.is_cut_off(kHorizon));
+  step({3});
+  EXPECT_FALSE(neighbours_.is_cut_off(kHorizon));
+  step({});
+  EXPECT_TRUE(neighbours_.is_cut_off(kHorizon));
+  for (int i = 0; i < 20; ++i) step({}, {{2}});
+  EXPECT_TRUE(neighbours_.is_cut_off(kHorizon));
+  for (int i = 0; i < 20; ++i) step({});
+  EXPECT_FALSE(neighbours_.is_cut_off(kHorizon));
+}
+
 }  // namespace
 }  // namespace hlc::controller::neighbours_test
