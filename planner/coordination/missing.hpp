@@ -59,10 +59,10 @@ struct Silence {
 /// A controller that has lost all others although it still commands its vehicle does not drive off:
 /// as long as it receives nobody, and one of those that it has received before does not stand for
 /// good, it plans nothing new from standstill (seed 8592 in found_fault_test.cpp).
-/// Assumption: two groups of controllers, each of which receives its own members only, still see
-/// each other present on the lab's network; and a controller that was started again receives
-/// somebody, or nobody drives. Otherwise it cannot command its vehicle either, since commands use
-/// the lab's network.
+/// Assumption for what this leaves (two groups of controllers, each of which receives its own
+/// members only; one for which all others stand for good; one that was started again and has
+/// received nobody yet): who shows no sign of life on the lab's network for this long cannot
+/// command its vehicle either, since commands use that network.
 [[nodiscard]] bool stands_for_good(const Silence& silence, std::size_t horizon_steps);
 
 /// The footprint of a standing vehicle with its margin.
