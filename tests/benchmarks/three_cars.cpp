@@ -32,13 +32,12 @@ std::unique_ptr<controller::Controller> controller_of(
     const std::shared_ptr<const automaton::Subgraph>& subgraph, Lanes lanes) {
   // Best-first independent of the scenario: a measured engine must not choose its own problems.
   return std::make_unique<controller::Controller>(
-      controller::ControllerOptions{
-          .vehicle = vehicle.id,
-          .horizon_steps = scenario.horizon_steps,
-          .reference_speed_mps = scenario.reference_speed_mps,
-          .reference_rule = road::mean_speed_first,
-          .strategies = {.coordination = scenario.profile.strategies.coordination},
-          .search = {.engine = search::Engine::kBestFirst}},
+      controller::ControllerOptions{.vehicle = vehicle.id,
+                                    .horizon_steps = scenario.horizon_steps,
+                                    .reference_speed_mps = scenario.reference_speed_mps,
+                                    .reference_rule = road::mean_speed_first,
+                                    .strategies = {.coordination = controller::kStrictCoordination},
+                                    .search = {.engine = search::Engine::kBestFirst}},
       subgraph, vehicle.path, lanes == Lanes::kNone ? road::Corridor{} : vehicle.corridor);
 }
 

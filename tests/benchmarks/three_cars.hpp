@@ -28,9 +28,10 @@ inline constexpr ThreeCarsStart kThreeCarsStart{.blue_m = 6.5, .green_m = 4.5};
 [[nodiscard]] std::vector<road::ReferencePath> three_cars_routes();
 
 /// Red's planning problems, step by step, in scenario `paper_three_cars` (map, routes, reference
-/// speed, horizon, profile `default` but the authors' later spacing of reference points) with
-/// vehicles that follow perfectly. Red is the vehicle that plans last and keeps clear of both
-/// others. Without lanes all three drive on open ground: their controllers know no boundary either.
+/// speed, horizon, profile `default` but the authors' later spacing of reference points, and
+/// coordination `strict`: one problem a step) with vehicles that follow perfectly. Red is the
+/// vehicle that plans last and keeps clear of both others. Without lanes all three drive on open
+/// ground: their controllers know no boundary either.
 ///
 /// Steps in which red had nothing to search are left out.
 /// @param subgraph  of the paper's automaton

@@ -73,10 +73,16 @@ TEST_F(Scripts, RunLabPrintsTheTableAndLeavesNobodyBehind) {
 }
 
 // Cars 1, 2 and 3 stand in each other's way forever.
+// Where nobody makes room, three of six cars get stuck.
 TEST_F(Scripts, RunLabTellsThatCarsAreStuckAtTheEnd) {
   const std::filesystem::path out = folder_ / "run";
-  ChildProcess run =
-      run_lab({"--scenario", "circle", "--cars", "6", "--steps", "115", "--out", out.string()});
+  const std::string scenario = folder_ / "circle.yaml";
+  std::ofstream(scenario)
+      << "{name: circle, steps: 115, automaton: " << kScripts
+      << "automata/paper.yaml, subgraph: B, max_expansions: 400000, "
+         "coordination: strict,\n"
+         " circle: {cars: 6, radius_m: 1.5, centre_x_m: 2.25, centre_y_m: 2.0}}\n";
+  ChildProcess run = run_lab({"--scenario", scenario, "--out", out.string()});
   ASSERT_EQ(run.wait_for(240s), 6) << output();
   EXPECT_NE(output().find("stuck at the end: vehicles                   1 2 3\n"),
             std::string::npos)

@@ -50,11 +50,12 @@ TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
   EXPECT_NE(summary_of(scenario, {.steps = 30}).trace_sha256, trace);
 }
 
-// Six cars on their way across a circle: 4, 5 and 6 get through, 1, 2 and 3 stand in each other's
-// way forever.
+// Six cars on their way across a circle, and nobody makes room: 4, 5 and 6 get through, 1, 2 and 3
+// stand in each other's way forever.
 TEST(Experiment, SixCarsOnACircleWaitForEachOtherAndSayForWhom) {
-  const scenario::Scenario scenario = scenario::read_scenario(
+  scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/circle.yaml", .cars = 6});
+  scenario.profile.strategies.coordination = controller::kStrictCoordination;
   const Experiment experiment = drive_experiment(scenario, {.steps = 115});
   EXPECT_EQ(experiment.facts.exit_code, kExitStuck);
   EXPECT_EQ(experiment.facts.reason,
