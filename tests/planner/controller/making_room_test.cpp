@@ -95,8 +95,8 @@ TEST(MakingRoom, SenselessDesiresDoNoHarm) {
       coordination::Prediction p1 = one->plan({});
       p1.desired = {.first = {k + 1},
                     .areas_m = {},
-                    .final_area_m = footprint_area({size_m(random), size_m(random)},
-                                                   {x_m(random), 0.0, 0.5})};
+                    .final_area_m =
+                        footprint_area({size_m(random), size_m(random)}, {x_m(random), 0.0, 0.5})};
       const coordination::Prediction p2 = two->plan(std::vector{p1});
       static_cast<void>(one->commit(std::vector{p2}, {}));
       const coordination::Report report = two->commit(std::vector{p1}, {});

@@ -6,9 +6,9 @@
 
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/plans_in_force.hpp"
-#include "tests/support/folders.hpp"
 
 namespace hlc::rollout {
 namespace {
@@ -40,7 +40,8 @@ std::size_t num_waiting(scenario::Scenario scenario, const CoordinationRule& rul
 class CarsOnACircle : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(CarsOnACircle, AllGetToTheOtherSide) {
-  EXPECT_EQ(num_waiting(shipped("circle", GetParam()), controller::kCooperativeCoordination, 60), 0U);
+  EXPECT_EQ(num_waiting(shipped("circle", GetParam()), controller::kCooperativeCoordination, 60),
+            0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cars, CarsOnACircle, testing::Values(2, 5, 6, 9, 12, 16),
@@ -56,9 +57,8 @@ scenario::Scenario from_random_starts(scenario::Scenario scenario, std::mt19937&
   for (scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     std::uniform_real_distribution<double> anywhere_m(0.0, vehicle.path.length_m());
     const auto is_taken = [&](double s_m) {
-      return std::ranges::any_of(taken_m, [&](const Point& other) {
-        return (other - vehicle.path.at(s_m)).norm() < 0.4;
-      });
+      return std::ranges::any_of(
+          taken_m, [&](const Point& other) { return (other - vehicle.path.at(s_m)).norm() < 0.4; });
     };
     double s_m = anywhere_m(random);
     while (is_taken(s_m)) s_m = anywhere_m(random);
