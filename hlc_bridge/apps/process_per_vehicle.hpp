@@ -7,7 +7,7 @@
 
 namespace hlc::apps {
 
-/// Runs one process, and returns its exit code. @param signals  of that process, unused so far
+/// Runs one process, and returns its exit code. @param signals  of that process alone
 using RunOne = std::function<int(int id, time::StopSignals& signals)>;
 
 /// Runs `run(id)` in a process of its own for every id, as if each had been started alone: a
