@@ -79,8 +79,9 @@ std::vector<coordination::Report> Rollout::step() {
 Rollout make_rollout(const scenario::Scenario& scenario) {
   std::vector<std::unique_ptr<controller::Controller>> controllers;
   std::vector<Pose> starts;
+  const controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(scenario);
   for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
-    controllers.push_back(scenario::make_controller(scenario, vehicle.id));
+    controllers.push_back(scenario::make_controller(scenario, vehicle.id, prepared));
     starts.push_back(vehicle.start);
   }
   Rollout rollout(std::move(controllers), starts);

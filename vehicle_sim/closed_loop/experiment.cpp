@@ -58,6 +58,7 @@ class Lab {
         rules_(options.rules),
         wall_clock_(or_zero(options.clocks.wall)),
         cpu_clock_(or_zero(options.clocks.cpu)) {
+    const controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(scenario);
     for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
       const std::uint8_t id = vehicle.id.value;
       simulated_vehicle::SimulatedVehicleOptions simulated{
@@ -65,7 +66,7 @@ class Lab {
           .start = scenario::measured_start(scenario, vehicle),
           .gains = options.gains};
       if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
-      high_level_controller::HlcCore hlc(scenario::make_controller(scenario, vehicle.id));
+      high_level_controller::HlcCore hlc(scenario::make_controller(scenario, vehicle.id, prepared));
       controller::ControlLoop loop(hlc.controller(), cpu_clock_);
       policy::SubgraphSelector choice(hlc.controller(), scenario.reconfiguration);
       members_.push_back({.id = id,
