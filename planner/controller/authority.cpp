@@ -10,10 +10,10 @@
 namespace hlc::controller {
 namespace {
 
-/// A horizon at the lab's reference speed, and a quarter.
-constexpr double kLookAhead_m = 1.6;
-/// Nearer than this to its end an authority limits plans.
-constexpr double kOpen_m = 1.4;
+/// About as far as a plan of a horizon leads at the lab's reference speed, since it ends in a
+/// standstill. What is taken earlier than it is needed keeps others away: with 1.6 m twenty cars
+/// are slower by 3 % on the lab's road.
+constexpr double kLookAhead_m = 1.0;
 /// A vehicle that moves less in a step stands.
 constexpr double kStands_m = 0.002;
 /// Room between the front of a vehicle that stands at the end and the bar, for its heading.
@@ -66,7 +66,8 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
   const std::vector<double> ahead_m = right_of_way::grant(*map_, holders, blocked, kLookAhead_m);
   for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
   claim_.ahead_m = ahead_m.front();
-  if (claim_.ahead_m < kOpen_m) {
+  const bool is_limited = claim_.ahead_m + map_->cell_m(claim_.route) <= kLookAhead_m;
+  if (is_limited) {
     withheld_by_ = right_of_way::withheld_by(*map_, holders, blocked, 0);
   }
 }
@@ -76,9 +77,7 @@ double Authority::end_s_m(double s_m) const {
   return s_m + std::max(0.0, claim_.ahead_m - moved_m);
 }
 
-std::optional<ConvexPolygon> Authority::bar_m(const RouteTracker& tracker,
-                                              const Footprint& footprint) const {
-  if (claim_.ahead_m >= kOpen_m) return std::nullopt;
+ConvexPolygon Authority::bar_m(const RouteTracker& tracker, const Footprint& footprint) const {
   const road::ReferencePath& path = tracker.route().path;
   const double s_m = claim_.place_m + claim_.ahead_m + footprint.length_m / 2.0 + kBehindEnd_m +
                      kBarLength_m / 2.0;

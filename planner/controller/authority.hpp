@@ -2,7 +2,6 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,9 +51,8 @@ class Authority {
 
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.
   [[nodiscard]] double end_s_m(double s_m) const;
-  /// An area across the lane behind the end, to be kept clear of, if a plan may reach so far.
-  [[nodiscard]] std::optional<ConvexPolygon> bar_m(const RouteTracker& tracker,
-                                                   const Footprint& footprint) const;
+  /// An area across the lane behind the end, to be kept clear of.
+  [[nodiscard]] ConvexPolygon bar_m(const RouteTracker& tracker, const Footprint& footprint) const;
 
  private:
   std::shared_ptr<const right_of_way::ConflictMap> map_;

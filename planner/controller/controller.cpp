@@ -6,7 +6,6 @@
 
 #include "planner/automaton/deviation.hpp"
 #include "planner/common/demand.hpp"
-#include "planner/controller/plan_end.hpp"
 #include "planner/controller/problem_alone.hpp"
 #include "planner/controller/self_loop.hpp"
 #include "planner/coordination/coupling.hpp"
@@ -228,27 +227,6 @@ LaneEntry Controller::find_lane_entry() {
       });
 }
 
-search::HorizonProblem Controller::posed_alone(double end_s_m) const {
-  return problem_in(entry_area() ? *entry_area() : route().corridor, end_s_m);
-}
-
-search::HorizonProblem Controller::pose_problem(CoupledObstacleRule rule) const {
-  search::HorizonProblem problem =
-      posed_alone(authority_ ? authority_->end_s_m(tracker_.s_m().value()) : kNoEnd_m);
-  problem.obstacles_m = obstacles_m(rule);
-  if (authority_) {
-    if (const auto bar_m = authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint)) {
-      for (auto& areas_m : problem.obstacles_m) areas_m.push_back(*bar_m);
-    }
-  }
-  // The plan in force, continued, is a plan too, as long as it starts where planning starts.
-  if (!in_force_->is_moved()) {
-    problem.incumbent =
-        options_.strategies.incumbent(plan_in_force(), step_.next(), options_.horizon_steps);
-  }
-  return problem;
-}
-
 bool Controller::may_plan() const {
   return !minimal_risk_stop_ && step_.obstacle == coordination::FallbackReason::kNone;
 }
@@ -288,33 +266,6 @@ void Controller::check_start() {
       subgraph().distance_to_standstill(step_.traffic.next_trim) > options_.horizon_steps) {
     step_.obstacle = coordination::FallbackReason::kInfeasible;
   }
-}
-
-void Controller::search_candidate() {
-  const search::HorizonProblem own = pose_problem(options_.strategies.coordination.obstacles);
-  if (!make_room(own)) find_candidate(own, 1);
-  step_.obstacle = step_.candidate.obstacle;
-}
-
-/// The problems of former searches stay.
-bool Controller::find_candidate(search::HorizonProblem problem, std::size_t budget_share) {
-  std::vector<search::HorizonProblem> problems = std::move(step_.candidate.problems);
-  step_.candidate = search_.find(std::move(problem),
-                                 {.in_force = *in_force_,
-                                  .now = step_.observation.step,
-                                  .reachable_area_m = step_.traffic.reachable_area_m,
-                                  .lab = options_.lab,
-                                  .budget_share = budget_share},
-                                 step_.report);
-  std::ranges::move(step_.candidate.problems, std::back_inserter(problems));
-  step_.candidate.problems = std::move(problems);
-  if (authority_ && step_.candidate.plan &&
-      !ends_along_lane(*step_.candidate.plan, in_force_->base(), step_.next(), tracker_,
-                       reach_m())) {
-    step_.candidate.plan.reset();
-    step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
-  }
-  return step_.candidate.plan.has_value();
 }
 
 coordination::Outcome Controller::vote() const {

@@ -195,6 +195,7 @@ class Controller {
     std::map<VehicleId, coordination::OccupiedAreas>
         awaited;  ///< new plans of other coupled vehicles
     PlanCandidate candidate;
+    double cost_m2{};  ///< of the candidate's first search, with the whole reference
     coordination::Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
     std::vector<VehicleId> not_received;  ///< coupled, no prediction when this one committed
     std::vector<VehicleId> opposed;       ///< voted against the plan, or did not vote
@@ -233,7 +234,8 @@ class Controller {
   [[nodiscard]] OtherVehicle as_obstacle(VehicleId coupled) const;
   [[nodiscard]] std::vector<OtherVehicle> other_vehicles() const;
   void search_candidate();
-  bool find_candidate(search::HorizonProblem problem, std::size_t budget_share);
+  bool find_candidate(const search::HorizonProblem& problem, std::size_t budget_share);
+  void search_plan(search::HorizonProblem problem, std::size_t budget_share);
   [[nodiscard]] bool makes_room_for(const CoupledVehicle& other) const;
   [[nodiscard]] bool make_room(const search::HorizonProblem& own);
   [[nodiscard]] std::optional<coordination::OccupiedAreas> desired_areas();

@@ -9,9 +9,6 @@
 namespace hlc::controller {
 namespace {
 
-/// Costs are sums of squares of metres; rounding is far below.
-constexpr double kLeastGain_m2 = 1e-9;
-
 /// They prevent any motion beyond the end of the authority.
 void note_withheld(const std::vector<VehicleId>& by, std::vector<OtherVehicle>& others) {
   for (const VehicleId holder : by) {
@@ -100,30 +97,6 @@ std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m(CoupledObstacleR
 bool Controller::makes_room_for(const CoupledVehicle& other) const {
   return options_.strategies.coordination.makes_room && other.prediction != nullptr &&
          other.prediction->desired.has_value();
-}
-
-bool Controller::make_room(const search::HorizonProblem& own) {
-  std::vector<const coordination::OccupiedAreas*> desired;
-  for (const VehicleId other : predecessors()) {
-    const CoupledVehicle one = coupled_vehicle(other);
-    if (makes_room_for(one)) desired.push_back(&*one.prediction->desired);
-  }
-  if (desired.empty()) return false;
-  const auto is_found_beyond = [&](std::size_t from) {
-    return find_candidate(making_room(own, desired, step_.next(), from), kMakingRoomShare);
-  };
-  return is_found_beyond(0) || is_found_beyond(options_.horizon_steps - 1);
-}
-
-std::optional<coordination::OccupiedAreas> Controller::desired_areas() {
-  const bool is_last = coupled().size() == predecessors().size();
-  if (!options_.strategies.coordination.makes_room || is_last) return std::nullopt;
-  const search::SearchResult result =
-      search_.search(pose_problem(&desired_plans_of_predecessors), kMakingRoomShare);
-  const bool is_better =
-      !step_.candidate.plan || result.cost < step_.report.cost_m2 - kLeastGain_m2;
-  if (result.maneuvers.empty() || !is_better) return std::nullopt;
-  return in_force_->areas_of(plan_of(result.maneuvers), step_.next());
 }
 
 std::vector<Controller::AnnouncedPlan> Controller::announced_plans() const {

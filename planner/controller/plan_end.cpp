@@ -10,7 +10,7 @@ namespace hlc::controller {
 namespace {
 
 /// Half the length of the chord whose direction counts as the path's.
-constexpr double kHalfChord_m = 0.05;
+constexpr double kHalfLaneChord_m = 0.05;
 
 /// Where a vehicle stands for good.
 struct Stand {
@@ -22,7 +22,7 @@ Stand stand_at_end(const coordination::Plan& plan, StepIndex next, const RouteTr
                    double reach_m) {
   const Pose& end = plan.pose_at(std::max(plan.end(), next));
   const double s_m = tracker.project(end.position_m(), reach_m);
-  const double lane_rad = road::chord_heading_rad(tracker.route().path, s_m, kHalfChord_m);
+  const double lane_rad = road::chord_heading_rad(tracker.route().path, s_m, kHalfLaneChord_m);
   return {s_m, std::abs(wrap_angle(end.heading_rad - lane_rad))};
 }
 

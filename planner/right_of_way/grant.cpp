@@ -123,7 +123,8 @@ std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holder
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
     const auto key = [&](std::size_t i) {
-      return std::tuple(-static_cast<std::int64_t>(holders[i].claim.waiting_steps),
+      const coordination::LaneClaim& claim = holders[i].claim;
+      return std::tuple(-static_cast<std::int64_t>(claim.waiting_steps), claim.ahead_m,
                         holders[i].vehicle);
     };
     return key(a) < key(b);

@@ -24,7 +24,8 @@ struct Blocked {
 /// How far every vehicle's authority reaches after all that can be granted has been: the ends of
 /// `holders`, from their places [m], in the same order.
 ///
-/// The vehicle that has waited longest comes first, then the smaller id. Its authority is extended
+/// The vehicle that has waited longest comes first, then the one that is nearest to the end of its
+/// authority, then the smaller id. Its authority is extended
 /// cell by cell, up to `look_ahead_m` from its place, while the next cell overlaps no cell that
 /// another vehicle holds and nothing that one blocks; a stretch of conflict cells only as a whole,
 /// with the first cell behind it that is none. Behind a vehicle ahead it ends at that one's

@@ -21,7 +21,7 @@ namespace {
 using coordination::LaneClaim;
 using coordination::Traffic;
 
-constexpr double kLookAhead_m = 1.6;
+constexpr double kLookAhead_m = 1.0;
 constexpr double kReach_m = 2.0;
 
 const vehicle::VehicleParameters& car() { return automaton::paper_automaton()->vehicle; }
@@ -132,8 +132,8 @@ TEST_F(AuthorityTest, ItEndsBehindTheVehicleAhead) {
   EXPECT_LT(end_m(), 2.0 - car().footprint.length_m);
   EXPECT_GT(end_m(), 2.0 - car().footprint.length_m - 0.1);
   begin_step(ring_.standing(1.0), 2);
-  extend({Ring::other_at(2, 2.3, 0.5)});
-  EXPECT_GT(end_m(), 2.3 - car().footprint.length_m - 0.1) << "that one has driven on";
+  extend({Ring::other_at(2, 2.2, 0.5)});
+  EXPECT_GT(end_m(), 2.2 - car().footprint.length_m - 0.1) << "that one has driven on";
 }
 
 TEST_F(AuthorityTest, TheEndIsNeverBeforeAPlaceOfTheVehicle) {
@@ -154,23 +154,26 @@ TEST_F(AuthorityTest, TheBarLiesBehindTheEndAcrossTheLane) {
     authority_ = Authority(ring_.map);
     begin_step(ring_.standing(place_m), 1);
     extend({Ring::other_at(2, place_m + gap_m)});
-    const auto bar_m = authority_.bar_m(ring_.tracker, car().footprint);
-    ASSERT_TRUE(bar_m.has_value());
+    const ConvexPolygon bar_m = authority_.bar_m(ring_.tracker, car().footprint);
     const auto at_end = [&](double beyond_m) {
       return footprint_area(car().footprint, ring_.pose_on(end_m() + beyond_m));
     };
-    EXPECT_FALSE(intersects(*bar_m, at_end(0.0))) << "it may stop at the end";
-    EXPECT_GT(distance_m(*bar_m, at_end(0.0)), 0.01);
-    EXPECT_TRUE(intersects(*bar_m, at_end(0.05)));
-    const Box box = bounding_box(*bar_m);
+    EXPECT_FALSE(intersects(bar_m, at_end(0.0))) << "it may stop at the end";
+    EXPECT_GT(distance_m(bar_m, at_end(0.0)), 0.01);
+    EXPECT_TRUE(intersects(bar_m, at_end(0.05)));
+    const Box box = bounding_box(bar_m);
     EXPECT_GT((box.max_m - box.min_m).norm(), car().footprint.width_m + 0.02);
   }
 }
 
-TEST_F(AuthorityTest, ThereIsNoBarWhereNoPlanMayReachIt) {
+TEST_F(AuthorityTest, OnlyWhoHoldsWhatIsWantedNextWithholdsIt) {
   begin_step(ring_.standing(1.0), 1);
-  extend({});
-  EXPECT_FALSE(authority_.bar_m(ring_.tracker, car().footprint).has_value());
+  extend({Ring::other_at(2, 1.0 + kLookAhead_m)});
+  EXPECT_EQ(authority_.withheld_by(), std::vector<VehicleId>{{2}});
+  begin_step(ring_.standing(1.0), 2);
+  extend({Ring::other_at(2, 1.0 + kLookAhead_m + car().footprint.length_m + 0.045)});
+  EXPECT_NEAR(end_m(), 1.0 + kLookAhead_m, 0.04);
+  EXPECT_TRUE(authority_.withheld_by().empty()) << "the next cell, which it holds, is too far away";
 }
 
 TEST_F(AuthorityTest, ASilentVehicleIsAssumedToHoldWhatItMayHaveTaken) {
@@ -236,7 +239,7 @@ class ControllerWithAuthority : public testing::Test {
 TEST_F(ControllerWithAuthority, NothingIsTakenWhileAVehicleMayBeAnywhere) {
   for (int i = 0; i < 20; ++i) EXPECT_EQ(step(Other::kUnseen).ahead_m, 0.0) << i;
   static_cast<void>(step(Other::kReceived));
-  EXPECT_GT(step(Other::kReceived).ahead_m, 1.0);
+  EXPECT_GT(step(Other::kReceived).ahead_m, kLookAhead_m - 0.05);
 }
 
 TEST_F(ControllerWithAuthority, WhatASilentVehicleHoldsIsNotTaken) {

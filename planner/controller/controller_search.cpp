@@ -1,0 +1,110 @@
+// What a controller searches in a step: the problems that it poses, and its candidate.
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "planner/controller/controller.hpp"
+#include "planner/controller/held_up.hpp"
+#include "planner/controller/making_room.hpp"
+#include "planner/controller/plan_end.hpp"
+
+namespace hlc::controller {
+namespace {
+
+/// Costs are sums of squares of metres; rounding is far below.
+constexpr double kLeastGain_m2 = 1e-9;
+
+}  // namespace
+
+search::HorizonProblem Controller::posed_alone(double end_s_m) const {
+  return problem_in(entry_area() ? *entry_area() : route().corridor, end_s_m);
+}
+
+search::HorizonProblem Controller::pose_problem(CoupledObstacleRule rule) const {
+  search::HorizonProblem problem =
+      posed_alone(authority_ ? authority_->end_s_m(tracker_.s_m().value()) : kNoEnd_m);
+  problem.obstacles_m = obstacles_m(rule);
+  if (authority_) {
+    const ConvexPolygon bar_m =
+        authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint);
+    for (auto& areas_m : problem.obstacles_m) areas_m.push_back(bar_m);
+  }
+  // The plan in force, continued, is a plan too, as long as it starts where planning starts.
+  if (!in_force_->is_moved()) {
+    problem.incumbent =
+        options_.strategies.incumbent(plan_in_force(), step_.next(), options_.horizon_steps);
+  }
+  return problem;
+}
+
+void Controller::search_candidate() {
+  const search::HorizonProblem own = pose_problem(options_.strategies.coordination.obstacles);
+  if (!make_room(own)) find_candidate(own, 1);
+  step_.obstacle = step_.candidate.obstacle;
+}
+
+/// With right of way the candidate keeps to its lane also where it is held up.
+bool Controller::find_candidate(const search::HorizonProblem& problem, std::size_t budget_share) {
+  search_plan(problem, budget_share);
+  step_.cost_m2 = step_.report.cost_m2;
+  if (!authority_ || !step_.candidate.plan) return step_.candidate.plan.has_value();
+  const std::optional<double> held_up_m =
+      held_up_at_m(*step_.candidate.plan, step_.next(), problem, tracker_, reach_m());
+  if (held_up_m) {
+    PlanCandidate first = step_.candidate;
+    search::HorizonProblem within = with_reference_of(problem, posed_alone(*held_up_m));
+    within.incumbent =
+        rest_of_plan_in_force(*first.plan, step_.next(), options_.horizon_steps);
+    search_plan(std::move(within), budget_share);
+    if (!step_.candidate.plan) {
+      first.problems = std::move(step_.candidate.problems);
+      step_.candidate = std::move(first);
+    }
+  }
+  if (!ends_along_lane(*step_.candidate.plan, in_force_->base(), step_.next(), tracker_,
+                       reach_m())) {
+    step_.candidate.plan.reset();
+    step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
+  }
+  return step_.candidate.plan.has_value();
+}
+
+/// The problems of former searches stay.
+void Controller::search_plan(search::HorizonProblem problem, std::size_t budget_share) {
+  std::vector<search::HorizonProblem> problems = std::move(step_.candidate.problems);
+  step_.candidate = search_.find(std::move(problem),
+                                 {.in_force = *in_force_,
+                                  .now = step_.observation.step,
+                                  .reachable_area_m = step_.traffic.reachable_area_m,
+                                  .lab = options_.lab,
+                                  .budget_share = budget_share},
+                                 step_.report);
+  std::ranges::move(step_.candidate.problems, std::back_inserter(problems));
+  step_.candidate.problems = std::move(problems);
+}
+
+bool Controller::make_room(const search::HorizonProblem& own) {
+  std::vector<const coordination::OccupiedAreas*> desired;
+  for (const VehicleId other : predecessors()) {
+    const CoupledVehicle one = coupled_vehicle(other);
+    if (makes_room_for(one)) desired.push_back(&*one.prediction->desired);
+  }
+  if (desired.empty()) return false;
+  const auto is_found_beyond = [&](std::size_t from) {
+    return find_candidate(making_room(own, desired, step_.next(), from), kMakingRoomShare);
+  };
+  return is_found_beyond(0) || is_found_beyond(options_.horizon_steps - 1);
+}
+
+std::optional<coordination::OccupiedAreas> Controller::desired_areas() {
+  const bool is_last = coupled().size() == predecessors().size();
+  if (!options_.strategies.coordination.makes_room || is_last) return std::nullopt;
+  const search::SearchResult result =
+      search_.search(pose_problem(&desired_plans_of_predecessors), kMakingRoomShare);
+  const bool is_better =
+      !step_.candidate.plan || result.cost < step_.cost_m2 - kLeastGain_m2;
+  if (result.maneuvers.empty() || !is_better) return std::nullopt;
+  return in_force_->areas_of(plan_of(result.maneuvers), step_.next());
+}
+
+}  // namespace hlc::controller
