@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
@@ -16,12 +17,18 @@ namespace hlc::controller {
 /// How far one vehicle may go on the shared road, by the right of way among all (grant.hpp). A
 /// value; the map is shared.
 ///
+/// A vehicle that has stood for kPatience_steps with road of its own in front of it gives that road
+/// back and waits anew: something that the cells do not know of is in its way, perhaps
+/// a vehicle that waits for the same road and stands some millimetres too near to be passed.
+///
 /// The end of the authority is a limit of planning, on top of everything that keeps plans apart:
 /// whatever the others hold or announce, no plan meets another's. It is never in front of the end
 /// of the plan in force. A car that stands askew in a bend may reach into the bar behind the end;
 /// it then finds no plan until more is granted to it.
 class Authority {
  public:
+  static constexpr std::uint32_t kPatience_steps = 25;
+
   explicit Authority(std::shared_ptr<const right_of_way::ConflictMap> map);
 
   /// Starts a step: the vehicle's place, by its plan.
@@ -59,6 +66,7 @@ class Authority {
   coordination::LaneClaim claim_;
   std::vector<VehicleId> withheld_by_;
   std::map<VehicleId, coordination::LaneClaim> known_;  ///< the last of each other vehicle
+  std::uint32_t unused_steps_{};  ///< for which it has stood with road in front of it
   bool has_place_{};
 };
 

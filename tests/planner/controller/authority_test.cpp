@@ -126,6 +126,25 @@ TEST_F(AuthorityTest, StepsOfStandingAreCountedAndStartAgainWhenTheVehicleHasMov
   EXPECT_EQ(waiting_steps, (std::vector<std::uint32_t>{0, 1, 2, 0, 0, 0, 1, 2, 3}));
 }
 
+TEST_F(AuthorityTest, RoadThatIsNotUsedIsGivenBackAndWaitedForAnew) {
+  const std::uint64_t last = 1 + Authority::kPatience_steps;
+  for (std::uint64_t step = 1; step <= last; ++step) {
+    begin_step(ring_.standing(1.0), step);
+    EXPECT_EQ(authority_.claim().waiting_steps, step == last ? 0 : step - 1);
+    EXPECT_EQ(authority_.claim().ahead_m > 0.5, step > 1 && step < last) << step;
+    extend({});
+  }
+  EXPECT_NEAR(end_m(), 1.0 + kLookAhead_m, 0.04) << "nobody else has taken it";
+}
+
+TEST_F(AuthorityTest, WhoHoldsNothingButItsPlaceKeepsItsPlaceInTheQueue) {
+  for (std::uint64_t step = 1; step <= 3 * Authority::kPatience_steps; ++step) {
+    begin_step(ring_.standing(1.0), step);
+    EXPECT_EQ(authority_.claim().waiting_steps, step - 1);
+    extend({Ring::other_at(2, 1.0 + car().footprint.length_m + 0.03)});
+  }
+}
+
 TEST_F(AuthorityTest, ItEndsBehindTheVehicleAhead) {
   begin_step(ring_.standing(1.0), 1);
   extend({Ring::other_at(2, 2.0, 0.5)});
