@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/geometry/footprint.hpp"
+#include "planner/geometry/near_points.hpp"
 #include "planner/geometry/pose.hpp"
 #include "planner/road/placement.hpp"
 #include "planner/vehicle/single_track.hpp"
@@ -25,7 +26,14 @@ struct ConflictRules {
   double same_heading_rad{0.25};
   /// ... and along such a lane, up to this distance, a car only follows the other.
   double following_m{0.5};
+  /// A cell within this distance along the lane of another one, in the same place otherwise, is
+  /// that one: for long routes that drive the same lanes many times. 0: never. Half a cell is
+  /// enough; `along_m` has to contain it.
+  double joined_m{0.0};
 };
+
+/// For routes that drive each lane many times.
+inline constexpr ConflictRules kTours{.along_m = 0.030, .joined_m = 0.020};
 
 /// Which pieces of closed routes cannot be occupied at the same time. Each route is cut into cells
 /// of equal length, of about ConflictRules::cell_m; a cell stands for the vehicle's place, its area
@@ -33,7 +41,8 @@ struct ConflictRules {
 /// overlap if their areas do.
 ///
 /// A cell is a *conflict cell* if it overlaps a cell of a route that crosses it or merges with it
-/// there, or its own route farther on; where routes share a lane, a car only follows the other. A
+/// there, or its own route farther on; where routes share a lane, a car only follows the other, and
+/// where a route drives a lane again, it follows itself. A
 /// vehicle that stands in a conflict cell may block vehicles that do not follow it: right of way
 /// (grant.hpp) never lets it stop there.
 class ConflictMap {
@@ -50,37 +59,42 @@ class ConflictMap {
     return lengths_m_[route] / static_cast<double>(routes_[route].size());
   }
   [[nodiscard]] const ConvexPolygon& area_m(std::size_t route, std::size_t cell) const {
-    return routes_[route][cell].area_m;
+    return cells_[routes_[route][cell]].area_m;
   }
   [[nodiscard]] bool is_conflict(std::size_t route, std::size_t cell) const {
-    return routes_[route][cell].is_conflict;
+    return cells_[routes_[route][cell]].is_conflict;
   }
-  /// Cells of the other route that overlap this one, ascending.
-  [[nodiscard]] std::span<const std::uint32_t> overlaps(std::size_t route, std::size_t cell,
-                                                        std::size_t other) const {
-    return routes_[route][cell].overlaps[other];
+  /// Number of the cell among all of the map; joined cells have the same.
+  [[nodiscard]] std::uint32_t cell(std::size_t route, std::size_t i) const {
+    return routes_[route][i];
+  }
+  [[nodiscard]] std::size_t num_cells() const { return cells_.size(); }
+  /// Numbers of the cells that overlap this one, itself included, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> overlaps(std::size_t route, std::size_t i) const {
+    return cells_[cell(route, i)].overlaps;
   }
 
  private:
+  using Numbers = std::vector<std::uint32_t>;  ///< of cells, ascending
+
   struct Cell {
     Pose pose;  ///< on the driving line, heading of the path
     ConvexPolygon area_m;
-    std::vector<std::vector<std::uint32_t>> overlaps;  ///< by route
+    Numbers overlaps;
     bool is_conflict{};
-  };
-
-  struct CellName {
-    std::size_t route;
-    std::size_t cell;
+    /// Cells before and behind this one on a route, up to ConflictRules::following_m; of each way
+    /// to drive through it once.
+    std::vector<Numbers> lanes;
   };
 
   void add_route(const road::DrivableRoute& route, const vehicle::VehicleParameters& vehicle,
-                 const ConflictRules& rules);
-  void relate(Cell& cell, std::size_t route, const std::vector<CellName>& near,
-              const ConflictRules& rules) const;
-  [[nodiscard]] std::size_t cells_apart(std::size_t route, std::size_t a, std::size_t b) const;
+                 const ConflictRules& rules, NearPoints& near);
+  [[nodiscard]] std::uint32_t joined(Cell cell, const ConflictRules& rules, NearPoints& near);
+  void add_lanes(std::size_t route, const ConflictRules& rules);
+  void relate(Cell& cell, const Numbers& near, const ConflictRules& rules) const;
 
-  std::vector<std::vector<Cell>> routes_;
+  std::vector<Cell> cells_;
+  std::vector<Numbers> routes_;  ///< in the order of driving, not ascending
   std::vector<double> lengths_m_;
   double reach_of_area_m_{};  ///< from a cell's position
 };

@@ -14,20 +14,23 @@ using CellNumber = std::int64_t;  ///< counted on over the end of a route
 class Grants {
  public:
   Grants(const ConflictMap& map, std::span<const Holder> holders, std::span<const Blocked> blocked)
-      : map_(map), holders_(holders), blocked_(blocked) {
+      : map_(map), holders_(holders), blocked_(blocked), num_holders_(map.num_cells()) {
     for (const Holder& holder : holders) ahead_m_.push_back(holder.claim.ahead_m);
+    for (std::size_t who = 0; who < holders.size(); ++who) count(who, 1);
   }
 
   void extend(std::size_t who, double look_ahead_m) {
+    count(who, -1);  // its own are free for it
     const coordination::LaneClaim& claim = holders_[who].claim;
     const double cell_m = map_.cell_m(claim.route);
     for (;;) {
-      const CellNumber next = cell_of(claim.route, claim.place_m + ahead_m_[who]) + 1;
-      if (static_cast<double>(next) * cell_m > claim.place_m + look_ahead_m) return;
+      const CellNumber next = last_of(who) + 1;
+      if (static_cast<double>(next) * cell_m > claim.place_m + look_ahead_m) break;
       const std::optional<CellNumber> end = end_of_stretch(who, next);
-      if (!end) return;
+      if (!end) break;
       ahead_m_[who] = static_cast<double>(*end) * cell_m - claim.place_m;
     }
+    count(who, 1);
   }
 
   [[nodiscard]] const std::vector<double>& ahead_m() const { return ahead_m_; }
@@ -37,7 +40,12 @@ class Grants {
     const std::vector<std::size_t> next = next_stretch(who);
     std::vector<VehicleId> vehicles;
     for (std::size_t other = 0; other < holders_.size(); ++other) {
-      const auto holds = [&](std::size_t cell) { return is_held_by(other, route, cell); };
+      const std::vector<std::uint32_t> held = held_by(other);
+      const auto holds = [&](std::size_t cell) {
+        return std::ranges::any_of(map_.overlaps(route, cell), [&](std::uint32_t one) {
+          return std::ranges::find(held, one) != held.end();
+        });
+      };
       if (other != who && std::ranges::any_of(next, holds)) {
         vehicles.push_back(holders_[other].vehicle);
       }
@@ -56,19 +64,41 @@ class Grants {
   [[nodiscard]] CellNumber cell_of(std::size_t route, double s_m) const {
     return std::llround(s_m / map_.cell_m(route));
   }
+  [[nodiscard]] CellNumber first_of(std::size_t who) const {
+    const coordination::LaneClaim& claim = holders_[who].claim;
+    return cell_of(claim.route, claim.place_m);
+  }
+  [[nodiscard]] CellNumber last_of(std::size_t who) const {
+    const coordination::LaneClaim& claim = holders_[who].claim;
+    return cell_of(claim.route, claim.place_m + ahead_m_[who]);
+  }
   [[nodiscard]] std::size_t on_route(std::size_t route, CellNumber cell) const {
     const auto count = static_cast<CellNumber>(map_.num_cells(route));
     return static_cast<std::size_t>((cell % count + count) % count);
   }
 
+  [[nodiscard]] std::vector<std::uint32_t> held_by(std::size_t who) const {
+    const std::size_t route = holders_[who].claim.route;
+    const auto whole_route = static_cast<CellNumber>(map_.num_cells(route));
+    const CellNumber end = std::min(last_of(who) + 1, first_of(who) + whole_route);
+    std::vector<std::uint32_t> cells;
+    for (CellNumber cell = first_of(who); cell < end; ++cell) {
+      cells.push_back(map_.cell(route, on_route(route, cell)));
+    }
+    return cells;
+  }
+
+  void count(std::size_t who, int by) {
+    for (const std::uint32_t cell : held_by(who)) num_holders_[cell] += by;
+  }
+
   /// Cells that would be granted next, all of them or none.
   [[nodiscard]] std::vector<std::size_t> next_stretch(std::size_t who) const {
-    const coordination::LaneClaim& claim = holders_[who].claim;
-    CellNumber cell = cell_of(claim.route, claim.place_m + ahead_m_[who]) + 1;
-    std::vector<std::size_t> cells{on_route(claim.route, cell)};
-    while (map_.is_conflict(claim.route, cells.back()) &&
-           cells.size() < map_.num_cells(claim.route)) {
-      cells.push_back(on_route(claim.route, ++cell));
+    const std::size_t route = holders_[who].claim.route;
+    CellNumber cell = last_of(who) + 1;
+    std::vector<std::size_t> cells{on_route(route, cell)};
+    while (map_.is_conflict(route, cells.back()) && cells.size() < map_.num_cells(route)) {
+      cells.push_back(on_route(route, ++cell));
     }
     return cells;
   }
@@ -78,41 +108,28 @@ class Grants {
     const std::size_t route = holders_[who].claim.route;
     const auto whole_route = static_cast<CellNumber>(map_.num_cells(route));
     for (CellNumber cell = first; cell < first + whole_route; ++cell) {
-      if (!is_free(who, on_route(route, cell))) return std::nullopt;
+      if (!is_free(route, on_route(route, cell))) return std::nullopt;
       if (!map_.is_conflict(route, on_route(route, cell))) return cell;
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] bool is_free(std::size_t who, std::size_t cell) const {
-    const std::size_t route = holders_[who].claim.route;
-    for (std::size_t other = 0; other < holders_.size(); ++other) {
-      if (other != who && is_held_by(other, route, cell)) return false;
-    }
+  /// For a vehicle whose own cells are not counted.
+  [[nodiscard]] bool is_free(std::size_t route, std::size_t cell) const {
+    const bool is_held = std::ranges::any_of(map_.overlaps(route, cell), [&](std::uint32_t one) {
+      return num_holders_[one] > 0;
+    });
+    if (is_held) return false;
     const ConvexPolygon& area_m = map_.area_m(route, cell);
     return std::ranges::none_of(blocked_,
                                 [&](const Blocked& one) { return intersects(area_m, one.area_m); });
-  }
-
-  /// Whether the other vehicle holds a cell that overlaps this one.
-  [[nodiscard]] bool is_held_by(std::size_t other, std::size_t route, std::size_t cell) const {
-    const auto cells = map_.overlaps(route, cell, holders_[other].claim.route);
-    return std::ranges::any_of(cells, [&](std::size_t one) { return holds(other, one); });
-  }
-
-  [[nodiscard]] bool holds(std::size_t who, std::size_t cell) const {
-    const coordination::LaneClaim& claim = holders_[who].claim;
-    const CellNumber from = cell_of(claim.route, claim.place_m);
-    const CellNumber to = cell_of(claim.route, claim.place_m + ahead_m_[who]);
-    const auto behind_from =
-        static_cast<CellNumber>(on_route(claim.route, static_cast<CellNumber>(cell) - from));
-    return behind_from <= to - from;
   }
 
   const ConflictMap& map_;
   std::span<const Holder> holders_;
   std::span<const Blocked> blocked_;
   std::vector<double> ahead_m_;
+  std::vector<int> num_holders_;  ///< of each cell of the map
 };
 
 }  // namespace

@@ -57,27 +57,22 @@ class NeighbourLanes {
   }
 
   [[nodiscard]] Sides beside(const Pose& pose) const {
+    const Point along{std::cos(pose.heading_rad), std::sin(pose.heading_rad)};
     Sides sides;
-    near_.visit(pose.position_m(), [&](std::size_t i) { note(pose, poses_[i], sides); });
+    near_.visit(pose.position_m(), [&](std::size_t i) { note(pose, along, poses_[i], sides); });
     return sides;
   }
 
  private:
-  void note(const Pose& pose, const Pose& other, Sides& sides) const {
+  void note(const Pose& pose, const Point& along, const Pose& other, Sides& sides) const {
     const Point apart_m = other.position_m() - pose.position_m();
-    if (apart_m.squaredNorm() > 4.0 * lane_width_m_ * lane_width_m_) return;
-    const double c = std::cos(pose.heading_rad);
-    const double s = std::sin(pose.heading_rad);
-    const double along_m = c * apart_m.x() + s * apart_m.y();
-    const double across_m = c * apart_m.y() - s * apart_m.x();
-    const double turned_rad =
-        std::abs(std::remainder(other.heading_rad - pose.heading_rad, std::numbers::pi));
+    const double across_m = along.x() * apart_m.y() - along.y() * apart_m.x();
+    bool& side = across_m > 0.0 ? sides.left : sides.right;
+    if (side || std::abs(along.dot(apart_m)) > kBeside_m) return;
     const double lanes = std::abs(across_m) / lane_width_m_;
-    if (std::abs(along_m) > kBeside_m || turned_rad > kParallel_rad || lanes < kNearestLane ||
-        lanes > kFarthestLane) {
-      return;
-    }
-    (across_m > 0.0 ? sides.left : sides.right) = true;
+    if (lanes < kNearestLane || lanes > kFarthestLane) return;
+    side = std::abs(std::remainder(other.heading_rad - pose.heading_rad, std::numbers::pi)) <=
+           kParallel_rad;
   }
 
   double lane_width_m_;

@@ -64,7 +64,9 @@ void relate_routes(Scenario& scenario) {
   for (ScenarioVehicle& vehicle : scenario.vehicles) {
     vehicle.driving_line = lines[vehicle.route_number];
   }
-  scenario.conflicts = std::make_shared<const right_of_way::ConflictMap>(routes, parameters);
+  scenario.conflicts = std::make_shared<const right_of_way::ConflictMap>(
+      routes, parameters,
+      scenario.random_routes_on ? right_of_way::kTours : right_of_way::ConflictRules{});
   demand_refuges(scenario);
 }
 

@@ -139,7 +139,7 @@ void add_vehicles_on_map(const ScenarioValues& values, const road::LaneletMap& m
     add_named_vehicles(values, map, routes, scenario);
   }
   if (scenario.random_routes_on) scenario.routes = routes_of(scenario.vehicles);
-  if (values.has_right_of_way && !scenario.random_routes_on) {
+  if (values.has_right_of_way) {
     const auto is_open = [](const auto& one) { return !one.path.is_closed(); };
     if (std::ranges::any_of(scenario.routes, is_open)) {
       values.node.fail("right_of_way", "false: an open route is not supported");
