@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <random>
+#include <utility>
 
 #include "tests/planner/right_of_way/routes.hpp"
 #include "tests/support/num_seeds.hpp"
@@ -225,6 +227,69 @@ TEST(ConflictMap, TheSameLaneInTheOtherDirectionIsAConflictAllAlong) {
   const ConflictMap map({{circle({0.0, 0.0}, 1.0), circle({0.0, 0.0}, 1.0, -1.0)}}, kCar);
   EXPECT_EQ(num_conflicts(map, 0), map.num_cells(0));
   EXPECT_EQ(num_conflicts(map, 1), map.num_cells(1));
+}
+
+/// As on random tours: to the left, again to the left or right, and so on, over the same lane.
+std::vector<road::DrivableRoute> tours() {
+  const auto tour = [](std::initializer_list<double> sides) {
+    std::vector<Point> points_m;
+    for (const double side : sides) {
+      const road::DrivableRoute loop = loop_beside_lane(side);
+      points_m.insert(points_m.end(), loop.path.points_m().begin(), loop.path.points_m().end());
+    }
+    return route_along(std::move(points_m));
+  };
+  return {tour({1, 1, -1}), tour({-1, 1, 1, -1, -1})};
+}
+
+TEST(ConflictMap, LanesThatRoutesDriveAgainAreJoined) {
+  const std::vector<road::DrivableRoute> loops{loop_beside_lane(1.0), loop_beside_lane(-1.0)};
+  const ConflictMap of_loops(loops, kCar, kTours);
+  const ConflictMap map(tours(), kCar, kTours);
+  EXPECT_LT(map.num_cells(), 2 * of_loops.num_cells());
+  EXPECT_GT(map.num_cells(0) + map.num_cells(1), 3 * of_loops.num_cells());
+  expect_symmetric(map);
+}
+
+TEST(ConflictMap, ToursAreInConflictWhereTheirLoopsAre) {
+  const std::vector<road::DrivableRoute> loops{loop_beside_lane(1.0), loop_beside_lane(-1.0)};
+  const ConflictMap of_loops(loops, kCar, {.along_m = kTours.along_m});
+  const ConflictMap map(tours(), kCar, kTours);
+  const auto conflicts_of_loops_near = [&](const ConvexPolygon& area_m) {
+    bool is_any = false;
+    bool is_all = true;
+    for (std::size_t loop = 0; loop < 2; ++loop) {
+      for (std::size_t cell = 0; cell < of_loops.num_cells(loop); ++cell) {
+        const Point offset_m =
+            area_m.vertices_m.front() - of_loops.area_m(loop, cell).vertices_m.front();
+        if (offset_m.norm() > 0.09) continue;
+        is_any |= of_loops.is_conflict(loop, cell);
+        is_all &= of_loops.is_conflict(loop, cell);
+      }
+    }
+    return std::pair(is_any, is_all);
+  };
+  for (std::size_t route = 0; route < 2; ++route) {
+    for (std::size_t cell = 0; cell < map.num_cells(route); ++cell) {
+      const auto [is_any, is_all] = conflicts_of_loops_near(map.area_m(route, cell));
+      if (is_any != is_all) continue;  // at the end of a stretch
+      EXPECT_EQ(map.is_conflict(route, cell), is_any) << route << ' ' << cell;
+    }
+  }
+}
+
+TEST(ConflictMap, AJoinedCellLiesAtMostHalfACellFromTheRoutesPlace) {
+  const std::vector<road::DrivableRoute> routes = tours();
+  const ConflictMap map(routes, kCar, kTours);
+  for (std::size_t route = 0; route < 2; ++route) {
+    for (std::size_t cell = 0; cell < map.num_cells(route); ++cell) {
+      const double s_m = cell_s_m(map, route, cell);
+      const Point place_m = routes[route].path.at(s_m);
+      const Pose pose{place_m.x(), place_m.y(), routes[route].path.heading_rad_at(s_m + 1e-6)};
+      const ConvexPolygon car = footprint_area(kCar.footprint, pose, 0.0);
+      EXPECT_TRUE(contains(map.area_m(route, cell), car, 0.012)) << route << ' ' << cell;
+    }
+  }
 }
 
 TEST(ConflictMap, AnEqualRouteIsNoConflict) {
