@@ -9,6 +9,7 @@ namespace {
 
 /// Of the product of a number of steps and their duration.
 constexpr double kRounding_s = 1e-6;
+constexpr double kMoved_m = 0.01;
 
 }  // namespace
 
@@ -31,11 +32,14 @@ std::string waiting_text(const Report& report, double step_s) {
 }
 
 std::optional<std::string> StuckNotice::note(const Report& report, double step_s) {
+  if (!start_) start_ = report.planned_pose;
+  has_moved_ |= (report.planned_pose.position_m() - start_->position_m()).norm() > kMoved_m;
   const bool was_stuck = is_stuck_;
   is_stuck_ = is_stuck(report, step_s);
   if (!is_stuck_ || was_stuck) return std::nullopt;
   return "stuck: " + waiting_text(report, step_s) +
-         ", although its road would be free without the others";
+         ", although its road would be free without the others" +
+         (has_moved_ ? "" : "; it has not moved since the start: place the vehicles elsewhere");
 }
 
 }  // namespace hlc::coordination

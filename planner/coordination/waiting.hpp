@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/coordination/ids.hpp"
+#include "planner/geometry/pose.hpp"
 
 /// A vehicle that stands because of others, as its controller reports it. The rule that decides on
 /// it is planner/controller/waits_for.hpp.
@@ -30,7 +31,8 @@ inline constexpr double kStuckAfter_s = 20.0;
 /// "vehicle 3, waiting for 1, 2 for 20.4 s". @pre it waits
 [[nodiscard]] std::string waiting_text(const Report& report, double step_s);
 
-/// Notices that one vehicle becomes stuck: once per waiting.
+/// Notices that one vehicle becomes stuck: once per waiting. Says so if it has not moved since the
+/// first report: then the start places are a knot already.
 class StuckNotice {
  public:
   /// @param report  of the next step
@@ -39,6 +41,8 @@ class StuckNotice {
 
  private:
   bool is_stuck_{};
+  std::optional<Pose> start_;  ///< of the first report
+  bool has_moved_{};
 };
 
 }  // namespace hlc::coordination

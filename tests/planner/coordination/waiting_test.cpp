@@ -27,8 +27,18 @@ TEST(Waiting, IsStuckAfterTwentySeconds) {
   EXPECT_FALSE(is_stuck({.vehicle = {3}, .step = {500}}, kStep_s));
 }
 
+TEST(Waiting, AVehicleThatHasNotMovedSinceTheStartIsToldSo) {
+  StuckNotice notice;
+  EXPECT_FALSE(notice.note(waiting(50), kStep_s));
+  EXPECT_THAT(notice.note(waiting(149), kStep_s).value(),
+              testing::EndsWith("; it has not moved since the start: place the vehicles elsewhere"));
+}
+
 TEST(Waiting, IsNoticedOnceAndAgainAfterABreak) {
   StuckNotice notice;
+  Report elsewhere{.vehicle = {3}, .step = {20}};
+  elsewhere.planned_pose.x_m = 0.3;
+  EXPECT_FALSE(notice.note(elsewhere, kStep_s));
   EXPECT_FALSE(notice.note(waiting(148), kStep_s));
   const std::optional<std::string> line = notice.note(waiting(149), kStep_s);
   ASSERT_TRUE(line);
