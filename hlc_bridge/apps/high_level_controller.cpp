@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "hlc_bridge/apps/process_per_vehicle.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
+#include "hlc_bridge/apps/scenario_choice.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/hlc_process.hpp"
@@ -39,16 +41,14 @@ struct Flags {
   hlc::scenario::ScenarioChoices scenario;
 };
 
-/// Scenario driven without the flag --scenario: the lab control centre does not pass it.
-constexpr const char* kDefaultScenario = "lab_three_cars";
-
-/// A file as it is; a name means scenarios/<name>.yaml beside the program, where the installation
-/// puts them.
-std::filesystem::path scenario_file(const std::filesystem::path& chosen) {
-  const std::filesystem::path name = chosen.empty() ? kDefaultScenario : chosen;
-  if (std::filesystem::exists(name) || name.has_extension()) return name;
+/// @throws std::invalid_argument naming the source of a scenario that does not exist
+std::filesystem::path chosen_scenario(const std::filesystem::path& flag) {
+  const char* const environment = std::getenv(hlc::apps::kScenarioVariable);
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  return program.parent_path() / "scenarios" / (name.string() + ".yaml");
+  const std::filesystem::path file = hlc::apps::scenario_file(
+      flag, environment == nullptr ? "" : environment, program.parent_path());
+  if (flag.empty()) spdlog::info("high_level_controller: scenario {}", file.string());
+  return file;
 }
 
 void declare(CLI::App& app, Flags& flags) {
@@ -61,8 +61,9 @@ void declare(CLI::App& app, Flags& flags) {
   app.get_option("--scenario")
       ->required(false)
       ->description(
-          "scenario file (YAML), or the name of one in the folder scenarios beside this program")
-      ->default_str(kDefaultScenario);
+          "scenario file (YAML), or the name of one in the folder scenarios beside this program; "
+          "default: environment variable HLC_SCENARIO, else the only line of the file "
+          "default_scenario beside this program, else lab_three_cars");
   app.add_option("--node_id", flags.node_id,
                  "name in the log; default: high_level_controller_<id>");
   app.add_option("--dds_initial_peer", flags.dds_initial_peer,
@@ -150,12 +151,12 @@ int main(int argc, char** argv) {
                "high_level_controller"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) return *code;
   const std::string program = "high_level_controller";
   std::optional<hlc::scenario::Scenario> scenario;
   const int code = hlc::apps::exit_code_of(program.c_str(), [&] {
     hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
-    flags.scenario.file = scenario_file(flags.scenario.file);
+    flags.scenario.file = chosen_scenario(flags.scenario.file);
     scenario = hlc::scenario::read_scenario(flags.scenario);
     if (flags.problem_folder && scenario->policy != hlc::policy::kNoPolicy) {
       throw std::invalid_argument("--dump-problems with policy " + scenario->policy +

@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
                "vehicle_sim"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) return *code;
   return hlc::apps::run_program(
       "vehicle_sim", signals,
       [&] { return std::make_shared<hlc::apps::VehicleProcess>(process_options(flags)); },

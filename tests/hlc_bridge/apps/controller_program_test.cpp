@@ -180,7 +180,8 @@ TEST(ControllerProgram, SaysWhatAFlagMayBe) {
       {"--simulated_time=perhaps", "--simulated_time: perhaps, must be true or false"},
       {"--core=first", "--core: first, must be in 0 ... 1023"},
       {"--dds_domain=400", "--dds_domain: 400, must be in 0 ... 232"},
-      {"--colour=red", "not expected: --colour=red, must be a flag that --help lists"}};
+      {"--transport=loopback --colour=red",
+       "not expected: --colour=red, must be a flag that --help lists"}};
   for (const auto& [flag, line] : lines) {
     const Outcome outcome = run_program("high_level_controller --vehicle_ids=1 " + flag);
     EXPECT_EQ(outcome.exit_code, kExitBadInput) << flag;
