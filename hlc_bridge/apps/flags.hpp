@@ -52,7 +52,8 @@ struct NetworkFlags {
         ->capture_default_str();
     declare_network(app);
     app.add_option("--startup_timeout_s", startup_timeout_s,
-                   "exit code 3 if a participant is missing by then")
+                   "exit code 3 if a participant is missing by then; on the lab's transport "
+                   "controllers wait for the start without a limit")
         ->capture_default_str()
         ->check(whole(1, 3600));
   }

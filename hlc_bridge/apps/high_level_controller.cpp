@@ -115,11 +115,11 @@ hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::Vehicle
   options.core = flags.core;
   options.startup_timeout = network.startup_timeout();
   options.time = hlc::machine::run_time(network.simulated_time);
-  const bool keeps_commands = options.transport == hlc::dds::Transport::kLoopback;
+  const bool is_in_the_lab = options.transport == hlc::dds::Transport::kLab;
   options.rules = network.simulated_time
-                      ? hlc::high_level_controller::rules_in_logical_time(keeps_commands)
+                      ? hlc::high_level_controller::rules_in_logical_time(is_in_the_lab)
                       : hlc::high_level_controller::rules_in_real_time(
-                            keeps_commands, hlc::high_level_controller::StepDeadlines{},
+                            is_in_the_lab, hlc::high_level_controller::StepDeadlines{},
                             hlc::time::nanoseconds(options.startup_timeout));
   return options;
 }

@@ -151,7 +151,7 @@ bool HlcMachine::refuse(const Instant& now) {
 
 bool HlcMachine::gather(const Instant& now) {
   if (rules_.start == StartRule::kTogether) {
-    life_.readiness().update(has_started());
+    life_.update_readiness(now.wall, has_started(), actions_);
     if (!life_.readiness().is_ready()) {
       static_cast<void>(ends(now));
       return false;

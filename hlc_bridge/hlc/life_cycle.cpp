@@ -15,7 +15,7 @@ LifeCycle::LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds start
     : vehicle_(vehicle),
       rules_(rules),
       startup_timeout_(startup_timeout),
-      readiness_(vehicle, rules.start, rules.duplicate_patience),
+      readiness_(vehicle, rules),
       middleware_(middleware_name(vehicle.value), rules.middleware_patience) {}
 
 void LifeCycle::receive(const HlcPeers& peers) {
@@ -33,12 +33,23 @@ void LifeCycle::receive_list(Nanoseconds wall) {
 void LifeCycle::watch(Nanoseconds wall, bool has_started, HlcActions& actions) {
   if (!began_at_) {
     began_at_ = wall;
-    peers_notice_ = list_notice_ = machine::WaitNotice{wall};
+    list_notice_ = machine::WaitNotice{wall};
+    peers_notice_ = rules_.waits_for_start ? machine::WaitNotice{wall, kReminderPause}
+                                           : machine::WaitNotice{wall};
   }
   watch_lab_control(wall, actions);
   middleware_.look(wall, actions);
-  readiness_.update(has_started);
+  update_readiness(wall, has_started, actions);
   remind(wall, actions);
+}
+
+void LifeCycle::update_readiness(Nanoseconds wall, bool has_started, HlcActions& actions) {
+  if (readiness_.is_ready()) return;
+  readiness_.update(has_started, wall - *began_at_);
+  const std::set<std::string> absent = readiness_.absent_controllers();
+  if (!rules_.waits_for_start || !readiness_.is_ready() || absent.empty()) return;
+  actions.warn("absent: " + machine::joined(absent) +
+               "; their vehicles may be driven by other software and are avoided");
 }
 
 void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
@@ -68,11 +79,31 @@ void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   }
 }
 
+/// @param missing  what the start waits for
+void LifeCycle::remind_of_start(Nanoseconds wall, const std::string& missing, HlcActions& actions) {
+  if (next_start_reminder_ != 0 && wall >= next_start_reminder_) {
+    actions.info("waiting: " + missing);
+    next_start_reminder_ = 0;
+  }
+  if (next_start_reminder_ == 0) next_start_reminder_ = wall + kReminderPause;
+}
+
 void LifeCycle::publish_ready(Nanoseconds wall, const controller::Controller& controller,
                               bool has_started, HlcActions& actions) {
   const bool is_off_route = controller.placement() && !controller.fits_route();
   const bool is_unseen = rules_.start == StartRule::kAtTrigger && !controller.placement();
   repeats_ready_ = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
+  if (rules_.waits_for_start && rules_.start == StartRule::kAtTrigger) {
+    if (!readiness_.is_ready() || has_started) {
+      next_start_reminder_ = 0;
+    } else {
+      remind_of_start(wall,
+                      is_off_route ? "the vehicle fits no route"
+                      : is_unseen  ? "the vehicle has not been seen standing yet"
+                                   : "no start trigger received",
+                      actions);
+    }
+  }
   if (!repeats_ready_ || wall < next_ready_at_) return;
   if (next_ready_at_ == 0 && rules_.start == StartRule::kAtTrigger) {
     actions.info("ready; waiting for the start trigger");
@@ -105,11 +136,13 @@ std::optional<Nanoseconds> LifeCycle::wake_up() const {
   if (!began_at_) return std::nullopt;
   std::optional<Nanoseconds> wake = earlier(lab_control_.wake_up(), middleware_.wake_up());
   if (readiness_.yields_to_duplicate()) {
-    wake = earlier(wake, *began_at_ + readiness_.duplicate_patience() + 1);
+    wake = earlier(wake, *began_at_ + rules_.duplicate_patience + 1);
   }
   if (!readiness_.is_ready()) {
-    return earlier(wake, std::min(peers_notice_.next(), *began_at_ + startup_timeout_ + 1));
+    wake = earlier(wake, peers_notice_.next());
+    return rules_.waits_for_start ? wake : earlier(wake, *began_at_ + startup_timeout_ + 1);
   }
+  if (next_start_reminder_ != 0) wake = earlier(wake, next_start_reminder_);
   if (repeats_ready_) wake = earlier(wake, next_ready_at_);
   return rules_.logs_missing_lists ? earlier(wake, list_notice_.next()) : wake;
 }

@@ -11,7 +11,11 @@ namespace hlc::high_level_controller::hlc_machine_life_cycle_test {
 namespace {
 
 using namespace driven_machine;
+using controller::east_bound::following;
 using controller::east_bound::seen;
+using testing::Each;
+using testing::ElementsAre;
+using testing::Field;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -105,6 +109,73 @@ TEST(HlcMachineReady, InLogicalTimeTheFirstListIsAnsweredWhenEverybodyIsThere) {
   alone.next_list(both);
   alone.pass(31 * kSecond);
   EXPECT_EQ(alone.exit_code(), kExitMissing);
+}
+
+// --- in the lab ----------------------------------------------------------------------------------
+
+TEST(HlcMachineInTheLab, WaitsForItsFirstListWithoutALimitAndLogsItEveryThirtySeconds) {
+  for (const HlcRules& rules : {real_time_in_the_lab(), logical_time_in_the_lab()}) {
+    DrivenMachine one(rules);
+    one.on(peers());
+    one.pass(60 * kSecond);
+    one.forget();
+    one.pass(600 * kSecond);
+    EXPECT_FALSE(one.exit_code());
+    const std::vector<machine::LogLine> lines = one.take<machine::LogLine>();
+    EXPECT_THAT(lines, SizeIs(20));
+    EXPECT_THAT(lines, Each(Field(&machine::LogLine::text,
+                                  "waiting: no state list received from the middleware")));
+  }
+}
+
+TEST(HlcMachineInTheLab, WaitsForTheTriggerWithoutALimitAndLogsItEveryThirtySeconds) {
+  DrivenMachine one(real_time_in_the_lab());
+  one.on(peers());
+  stand(one);
+  for (int i = 0; i < 3000; ++i) one.next_list(standing());
+  EXPECT_FALSE(one.exit_code());
+  std::vector<machine::LogLine> lines = one.take<machine::LogLine>();
+  std::erase_if(lines, [](const auto& line) { return !line.text.starts_with("waiting: "); });
+  EXPECT_THAT(lines, SizeIs(20));
+  EXPECT_THAT(lines, Each(Field(&machine::LogLine::text, "waiting: no start trigger received")));
+  one.on(SystemTrigger{.next_start = one.now().run});
+  one.next_list(standing());
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
+}
+
+TEST(HlcMachineInTheLab, AVehicleWithoutOneOfOurControllersIsMissingAndNoReasonToLeave) {
+  const std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
+  for (const HlcRules& rules : {real_time_in_the_lab(), logical_time_in_the_lab()}) {
+    DrivenMachine one(rules);
+    one.on(peers());
+    one.next_list(both);
+    one.pass(rules.controller_patience + kSecond);
+    for (int i = 0; i < 9; ++i) one.next_list(both);
+    EXPECT_TRUE(one.has_logged("absent: high_level_controller_2; their vehicles may be driven"));
+    one.on(SystemTrigger{.next_start = one.now().run});
+    std::vector<ReportRecord> records;
+    for (int i = 0; i < 20; ++i) {
+      one.next_list({following(one.machine().controller(), one.step() + 1), both[1]});
+      for (ReportRecord& record : one.take<ReportRecord>()) records.push_back(std::move(record));
+    }
+    EXPECT_FALSE(one.exit_code());
+    ASSERT_THAT(records, SizeIs(testing::Ge(20U)));
+    EXPECT_THAT(records[10].report.missing, ElementsAre(VehicleId{2}));
+    EXPECT_EQ(records.back().report.status, coordination::StepStatus::kPlanned);
+  }
+}
+
+TEST(HlcMachineInTheLab, AControllerThatHasAppearedIsWaitedForBeyondThePatience) {
+  const std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
+  DrivenMachine one(logical_time_in_the_lab());
+  HlcPeers unmatched = peers();
+  unmatched.controllers.alive.insert(controller_name(2));
+  one.on(unmatched);
+  one.next_list(both);
+  one.pass(60 * kSecond);
+  EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty());
+  one.on(peers({2}));
+  EXPECT_THAT(one.take<TrajectoryCommand>(), SizeIs(1));
 }
 
 /// Of a restarted controller: a middleware in logical time waits for every answer.
