@@ -18,13 +18,14 @@ struct StepDeadlines {
   double look_ahead{0.50};  ///< later than this policies do not look ahead in this step
 };
 
-/// How a controller enters the experiment. Until then the vehicle is commanded to stand only where
+/// How a controller enters the experiment. Until then the vehicle is planned to stand only where
 /// that is safe (HlcCore::may_stand_by).
 enum class StartRule : std::uint8_t {
   /// All controllers derive the first step from the same lists: the first list is answered only
   /// when all of them are matched, and every list from then on.
   kTogether,
-  /// From the start trigger's time on, or later by joining the running experiment.
+  /// From the start trigger's time on, or later by joining the running experiment. Before that time
+  /// nothing is sent to the vehicle, nor ever to one that fits no route.
   kAtTrigger,
 };
 

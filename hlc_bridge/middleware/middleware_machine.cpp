@@ -205,7 +205,7 @@ void MiddlewareMachine::begin_tick(Nanoseconds t_now, const Instant& now) {
   t_now_ = t_now;
   phase_ = Phase::kStates;
   due_states_.begin(now.wall);
-  if (!waits() && cycle_.is_triggered() && lists_.newest_list() != 0) {
+  if (!waits() && lists_.newest_list() != 0 && cycle_.is_running_at(lists_.newest_list())) {
     forwarder_.count_missed_answers(lists_.newest_list(), actions_);
   }
   cycle_.prepare_next(now.wall, actions_);

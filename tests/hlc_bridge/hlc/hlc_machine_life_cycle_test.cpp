@@ -71,10 +71,13 @@ TEST(HlcMachineReady, SaysThatItsVehicleFitsNoRouteAndIsNotReadyUntilItDoes) {
     one.next_list({{.vehicle = {1}, .pose = compose(start, {0.0, 0.0, 1.5})}});
   }
   EXPECT_TRUE(one.has_logged("fits no route: nearest is red"));
-  EXPECT_THAT(one.take<TrajectoryCommand>(), testing::Not(IsEmpty())) << "to stand";
+  one.on(SystemTrigger{.next_start = one.now().run});
+  one.next_list({{.vehicle = {1}, .pose = compose(start, {0.0, 0.0, 1.5})}});
+  EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty()) << "the operator moves it";
   EXPECT_THAT(one.take<ReadyStatus>(), IsEmpty());
-  for (int i = 0; i < 10; ++i) one.next_list({{.vehicle = {1}, .pose = start}});
-  EXPECT_THAT(one.take<ReadyStatus>(), testing::Not(IsEmpty()));
+  one.next_list({{.vehicle = {1}, .pose = start}});
+  one.next_list({{.vehicle = {1}, .pose = start}});
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
 }
 
 TEST(HlcMachineReady, LeavesAfterTheStartupTimeoutAndSaysWhoIsMissing) {
@@ -178,6 +181,25 @@ TEST(HlcMachineInTheLab, AControllerThatHasAppearedIsWaitedForBeyondThePatience)
   EXPECT_THAT(one.take<TrajectoryCommand>(), SizeIs(1));
 }
 
+/// The lab's vehicles are located half a second after their start.
+TEST(HlcMachineReady, InLogicalTimeAPoseThatIsNotTrustedYetIsNotReportedAsOffRoute) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
+  const Pose start = scenario::measured_start(scenario, scenario.vehicles.front());
+  const Pose turned = compose(start, {0.0, 0.0, 1.5});
+  DrivenMachine one(logical_time(), scenario::make_controller(scenario, {1}));
+  one.on(peers());
+  for (int i = 0; i < 3; ++i) one.next_list({{.vehicle = {1}, .pose = turned}});
+  for (int i = 0; i < 7; ++i) one.next_list({{.vehicle = {1}, .pose = start}});
+  EXPECT_FALSE(one.has_logged("fits no route"));
+  EXPECT_TRUE(one.has_logged("selects route red"));
+
+  DrivenMachine misplaced(logical_time(), scenario::make_controller(scenario, {1}));
+  misplaced.on(peers());
+  for (int i = 0; i < 7; ++i) misplaced.next_list({{.vehicle = {1}, .pose = turned}});
+  EXPECT_TRUE(misplaced.has_logged("fits no route"));
+}
+
 /// Of a restarted controller: a middleware in logical time waits for every answer.
 TEST(HlcMachineReady, InLogicalTimeAListIsAnsweredWithoutAnEffectOnAVehicleThatRolls) {
   DrivenMachine one(logical_time());
@@ -241,6 +263,26 @@ TEST(HlcMachineDuplicate, WhoIsReadyStaysUntilAnotherOneSpeaksForItsVehicle) {
 }
 
 // --- the start -----------------------------------------------------------------------------------
+
+TEST(HlcMachineStart, SendsNothingBeforeTheTriggersTimeAndFromItOnWhatTheVehicleNeedsToStand) {
+  for (const HlcRules& rules : {real_time(), real_time_in_the_lab()}) {
+    DrivenMachine one(rules);
+    one.on(peers());
+    stand(one);
+    one.on(SystemTrigger{.next_start = one.now().run + 2 * kPeriod});
+    one.next_list(standing());
+    one.pass(kPeriod / 2);
+    EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty());
+    one.next_list(standing());
+    one.next_list(standing());
+    const std::vector<TrajectoryCommand> sent = one.take<TrajectoryCommand>();
+    ASSERT_THAT(sent, testing::Not(IsEmpty()));
+    const std::vector<TrajectoryPoint>& points = sent.front().points;
+    EXPECT_LT(points.front().t, sent.front().valid_after_stamp);
+    EXPECT_EQ(points.front().vx_mps, 0.0) << "it drives off a step later";
+    EXPECT_GT(points.back().x_m, points.front().x_m);
+  }
+}
 
 TEST(HlcMachineStart, DrivesFromTheFirstListAfterTheTriggersTimeOn) {
   DrivenMachine one(real_time());
