@@ -39,16 +39,15 @@ struct Flags {
   std::optional<int> core;
   std::string dds_initial_peer;
   hlc::scenario::ScenarioChoices scenario;
+  bool is_scenario_given{};
 };
 
 /// @throws std::invalid_argument naming the source of a scenario that does not exist
 std::filesystem::path chosen_scenario(const std::filesystem::path& flag) {
   const char* const environment = std::getenv(hlc::apps::kScenarioVariable);
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::filesystem::path file = hlc::apps::scenario_file(
-      flag, environment == nullptr ? "" : environment, program.parent_path());
-  if (flag.empty()) spdlog::info("high_level_controller: scenario {}", file.string());
-  return file;
+  return hlc::apps::scenario_file(flag, environment == nullptr ? "" : environment,
+                                  program.parent_path());
 }
 
 void declare(CLI::App& app, Flags& flags) {
@@ -129,6 +128,9 @@ std::shared_ptr<hlc::process::HlcProcess> make_process(const Flags& flags,
                                                        int vehicle_id) {
   const hlc::VehicleId id{static_cast<std::uint8_t>(vehicle_id)};
   hlc::process::HlcProcessOptions options = process_options(flags, id);
+  if (!flags.is_scenario_given) {
+    spdlog::info("{}: scenario {}", options.node_id, flags.scenario.file.string());
+  }
   options.configuration = [file = scenario.automaton_file] {
     return hlc::maneuver_design::read_configuration_of(file);
   };
@@ -156,6 +158,7 @@ int main(int argc, char** argv) {
   std::optional<hlc::scenario::Scenario> scenario;
   const int code = hlc::apps::exit_code_of(program.c_str(), [&] {
     hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
+    flags.is_scenario_given = !flags.scenario.file.empty();
     flags.scenario.file = chosen_scenario(flags.scenario.file);
     scenario = hlc::scenario::read_scenario(flags.scenario);
     if (flags.problem_folder && scenario->policy != hlc::policy::kNoPolicy) {
