@@ -53,8 +53,8 @@ class WaitingCar {
  private:
   void publish_list() {
     const VehicleState& state = states_.back();
-    controller_.on(list_of(
-        now() / kPeriod, {{.vehicle = {1}, .pose = state.pose, .speed_mps = state.speed_mps}}));
+    controller_.on(list_of(now() / kPeriod,
+                           {{.vehicle = {1}, .pose = state.pose, .speed_mps = state.speed_mps}}));
   }
 
   DrivenMachine controller_;
