@@ -81,21 +81,21 @@ void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
 
 /// @param missing  what the start waits for
 void LifeCycle::remind_of_start(Nanoseconds wall, const std::string& missing, HlcActions& actions) {
-  if (next_start_reminder_ != 0 && wall >= next_start_reminder_) {
+  if (ready_.next_reminder != 0 && wall >= ready_.next_reminder) {
     actions.info("waiting: " + missing);
-    next_start_reminder_ = 0;
+    ready_.next_reminder = 0;
   }
-  if (next_start_reminder_ == 0) next_start_reminder_ = wall + kReminderPause;
+  if (ready_.next_reminder == 0) ready_.next_reminder = wall + kReminderPause;
 }
 
 void LifeCycle::publish_ready(Nanoseconds wall, const controller::Controller& controller,
                               bool has_started, HlcActions& actions) {
   const bool is_off_route = controller.placement() && !controller.fits_route();
   const bool is_unseen = rules_.start == StartRule::kAtTrigger && !controller.placement();
-  repeats_ready_ = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
+  ready_.repeats = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
   if (rules_.waits_for_start && rules_.start == StartRule::kAtTrigger) {
     if (!readiness_.is_ready() || has_started) {
-      next_start_reminder_ = 0;
+      ready_.next_reminder = 0;
     } else {
       remind_of_start(wall,
                       is_off_route ? "the vehicle fits no route"
@@ -104,12 +104,12 @@ void LifeCycle::publish_ready(Nanoseconds wall, const controller::Controller& co
                       actions);
     }
   }
-  if (!repeats_ready_ || wall < next_ready_at_) return;
-  if (next_ready_at_ == 0 && rules_.start == StartRule::kAtTrigger) {
+  if (!ready_.repeats || wall < ready_.next_at) return;
+  if (ready_.next_at == 0 && rules_.start == StartRule::kAtTrigger) {
     actions.info("ready; waiting for the start trigger");
   }
   actions.add(ReadyStatus{.source_id = controller_ready_id(vehicle_.value)});
-  next_ready_at_ = wall + kReadyRepeat;
+  ready_.next_at = wall + kReadyRepeat;
 }
 
 std::optional<int> LifeCycle::exit_code(Nanoseconds wall, bool has_list,
@@ -142,8 +142,8 @@ std::optional<Nanoseconds> LifeCycle::wake_up() const {
     wake = earlier(wake, peers_notice_.next());
     return rules_.waits_for_start ? wake : earlier(wake, *began_at_ + startup_timeout_ + 1);
   }
-  if (next_start_reminder_ != 0) wake = earlier(wake, next_start_reminder_);
-  if (repeats_ready_) wake = earlier(wake, next_ready_at_);
+  if (ready_.next_reminder != 0) wake = earlier(wake, ready_.next_reminder);
+  if (ready_.repeats) wake = earlier(wake, ready_.next_at);
   return rules_.logs_missing_lists ? earlier(wake, list_notice_.next()) : wake;
 }
 

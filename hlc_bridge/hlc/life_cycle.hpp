@@ -63,6 +63,12 @@ class LifeCycle {
  private:
   static constexpr Nanoseconds kReadyRepeat = kNanosecondsPerSecond / 2;
 
+  struct ReadyNotices {
+    bool repeats{};
+    Nanoseconds next_at{};        ///< 0: not published yet
+    Nanoseconds next_reminder{};  ///< that the start is awaited; 0: it is not
+  };
+
   void watch_lab_control(Nanoseconds wall, HlcActions& actions);
   void remind(Nanoseconds wall, HlcActions& actions);
   void remind_of_start(Nanoseconds wall, const std::string& missing, HlcActions& actions);
@@ -83,10 +89,8 @@ class LifeCycle {
   std::optional<Nanoseconds> began_at_;  ///< first advance
   machine::WaitNotice peers_notice_{0};  ///< for missing participants
   machine::WaitNotice list_notice_{0};   ///< for lists
-  Nanoseconds next_start_reminder_{};    ///< 0: not waiting for the start
   Nanoseconds last_list_at_{};
-  bool repeats_ready_{};
-  Nanoseconds next_ready_at_{};  ///< 0: not published yet
+  ReadyNotices ready_;
 };
 
 }  // namespace hlc::high_level_controller
