@@ -194,10 +194,10 @@ TEST(HlcMachineReady, InLogicalTimeAPoseThatIsNotTrustedYetIsNotReportedAsOffRou
   EXPECT_FALSE(one.has_logged("fits no route"));
   EXPECT_TRUE(one.has_logged("selects route red"));
 
-  DrivenMachine misplaced(logical_time(), scenario::make_controller(scenario, {1}));
-  misplaced.on(peers());
-  for (int i = 0; i < 7; ++i) misplaced.next_list({{.vehicle = {1}, .pose = turned}});
-  EXPECT_TRUE(misplaced.has_logged("fits no route"));
+  DrivenMachine off_route(logical_time(), scenario::make_controller(scenario, {1}));
+  off_route.on(peers());
+  for (int i = 0; i < 7; ++i) off_route.next_list({{.vehicle = {1}, .pose = turned}});
+  EXPECT_TRUE(off_route.has_logged("fits no route"));
 }
 
 /// Of a restarted controller: a middleware in logical time waits for every answer.
