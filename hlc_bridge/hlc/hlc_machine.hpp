@@ -114,6 +114,7 @@ class HlcMachine {
   void take(const coordination::Outcome& outcome) { step_.receive(outcome); }
   void take(const AutomatonRequest& request);
   void take(const PreparedRequest& prepared) { subgraphs_.receive(prepared); }
+  void take(const Parameter& answer) { life_.receive(answer); }
   void take(const machine::StopSignal& /*signal*/) { ending_.is_asked = true; }
   void take(const LostMessage& message) { actions_.warn(message.line); }
   void take(const AfterStepFailure& failure);

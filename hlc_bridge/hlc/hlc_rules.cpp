@@ -42,6 +42,7 @@ HlcRules rules_in_real_time(bool is_in_the_lab, const StepDeadlines& deadlines,
           .copy = is_in_the_lab ? CommandCopy::kAfterPause : CommandCopy::kAtOnce,
           .duplicate_patience = kDuplicatePatience,
           .middleware_patience = startup_timeout,
+          .asks_lab_control = is_in_the_lab,
           .waits_for_start = is_in_the_lab,
           .controller_patience = startup_timeout,
           .preparation_patience = 0};

@@ -60,6 +60,8 @@ struct HlcRules {
   /// not the trace of a dead one. Longer than the lease of a participant.
   Nanoseconds duplicate_patience{};
   Nanoseconds middleware_patience{};  ///< for a middleware that is lost; 0: none
+  /// The lab control is asked for a parameter every second, and is lost if it stops answering.
+  bool asks_lab_control{};
   /// The start is waited for without a limit, and reminders are logged every kReminderPause. False:
   /// the controller ends if a participant is missing after the startup timeout.
   bool waits_for_start{};

@@ -7,6 +7,7 @@
 
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/run_parameters.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
 namespace hlc::high_level_controller {
@@ -53,6 +54,9 @@ void LifeCycle::update_readiness(Nanoseconds wall, bool has_started, HlcActions&
 }
 
 void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
+  if (rules_.asks_lab_control && lab_control_.request_is_due(wall)) {
+    actions.add(ParameterRequest{.name = kPeriodParameter});
+  }
   switch (lab_control_.look(is_lab_control_absent_, stop_request_readers_, wall)) {
     case machine::LabControlWatch::Change::kNone:
       return;
@@ -135,6 +139,7 @@ std::optional<Nanoseconds> LifeCycle::wake_up() const {
   using machine::earlier;
   if (!began_at_) return std::nullopt;
   std::optional<Nanoseconds> wake = earlier(lab_control_.wake_up(), middleware_.wake_up());
+  if (rules_.asks_lab_control) wake = earlier(wake, lab_control_.next_request());
   if (readiness_.yields_to_duplicate()) {
     wake = earlier(wake, *began_at_ + rules_.duplicate_patience + 1);
   }

@@ -32,6 +32,8 @@ class LifeCycle {
   void receive(const RunState& state) {
     minimal_risk_stop_ |= state.phase == RunPhase::kMinimalRiskStop;
   }
+  /// An answer of the lab control.
+  void receive(const Parameter& /*answer*/) { lab_control_.receive_answer(); }
   /// A list was received. @param wall  now
   void receive_list(Nanoseconds wall);
 

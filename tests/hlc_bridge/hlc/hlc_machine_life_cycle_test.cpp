@@ -13,6 +13,7 @@ namespace {
 using namespace driven_machine;
 using controller::east_bound::following;
 using controller::east_bound::seen;
+using machine::LabControlWatch;
 using testing::Each;
 using testing::ElementsAre;
 using testing::Field;
@@ -365,6 +366,22 @@ TEST(HlcMachineStart, JoinsARunningExperimentByWhatTheLabControlSays) {
   stand(one);
   EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
   EXPECT_TRUE(one.has_logged("joining the running experiment"));
+}
+
+TEST(HlcMachineInTheLab, NoticesAControlCentreThatStopsAnsweringWithinThreeSecondsAndAQuarter) {
+  DrivenMachine one(real_time_in_the_lab());
+  one.on(peers());
+  start(one);
+  for (int i = 0; i < 25; ++i) {
+    one.next_list(standing());
+    if (!one.take<ParameterRequest>().empty()) one.on(Parameter{.name = "middleware_period_ms"});
+  }
+  EXPECT_FALSE(one.has_logged("lab_control lost"));
+  one.pass(3 * kSecond + LabControlWatch::kAnswerTime);
+  EXPECT_TRUE(one.has_logged("lab_control lost; minimal-risk stop"));
+  EXPECT_FALSE(one.exit_code());
+  one.pass(kControllerStays + 2 * kMillisecond);
+  EXPECT_EQ(one.exit_code(), kExitDied);
 }
 
 // --- the end -------------------------------------------------------------------------------------
