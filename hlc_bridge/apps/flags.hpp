@@ -1,5 +1,8 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <chrono>
 #include <optional>
 #include <string>
@@ -49,7 +52,8 @@ struct NetworkFlags {
         ->capture_default_str();
     declare_network(app);
     app.add_option("--startup_timeout_s", startup_timeout_s,
-                   "exit code 3 if a participant is missing by then")
+                   "exit code 3 if a participant is missing by then; on the lab's transport "
+                   "controllers wait for the start without a limit")
         ->capture_default_str()
         ->check(whole(1, 3600));
   }
@@ -80,5 +84,23 @@ struct NetworkFlags {
     return std::chrono::seconds{startup_timeout_s};
   }
 };
+
+/// parse_flags for the programs that the lab starts. On the lab's transport they ignore unknown
+/// flags with a warning, as the lab's own programs do: the lab appends the operator's script
+/// parameters to the middleware's command line.
+/// @param network  of the parsed flags
+inline std::optional<int> parse_lab_flags(CLI::App& app, const NetworkFlags& network, int argc,
+                                          char** argv) {
+  app.allow_extras();
+  if (const auto code = parse_flags(app, argc, argv, kExitBadInput)) return code;
+  const std::vector<std::string> unknown = app.remaining();
+  if (unknown.empty()) return std::nullopt;
+  if (network.transport == "lab") {
+    spdlog::warn("{}: unknown flags ignored: {}", app.get_name(),
+                 one_line(fmt::format("{}", fmt::join(unknown, " ")), 200));
+    return std::nullopt;
+  }
+  return refuse_unknown(app, CLI::ExtrasError(unknown));
+}
 
 }  // namespace hlc::apps

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "hlc_bridge/apps/process_per_vehicle.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
+#include "hlc_bridge/apps/scenario_choice.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/process/hlc_process.hpp"
@@ -37,18 +39,15 @@ struct Flags {
   std::optional<int> core;
   std::string dds_initial_peer;
   hlc::scenario::ScenarioChoices scenario;
+  bool is_scenario_given{};
 };
 
-/// Scenario driven without the flag --scenario: the lab control centre does not pass it.
-constexpr const char* kDefaultScenario = "lab_three_cars";
-
-/// A file as it is; a name means scenarios/<name>.yaml beside the program, where the installation
-/// puts them.
-std::filesystem::path scenario_file(const std::filesystem::path& chosen) {
-  const std::filesystem::path name = chosen.empty() ? kDefaultScenario : chosen;
-  if (std::filesystem::exists(name) || name.has_extension()) return name;
+/// @throws std::invalid_argument naming the source of a scenario that does not exist
+std::filesystem::path chosen_scenario(const std::filesystem::path& flag) {
+  const char* const environment = std::getenv(hlc::apps::kScenarioVariable);
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  return program.parent_path() / "scenarios" / (name.string() + ".yaml");
+  return hlc::apps::scenario_file(flag, environment == nullptr ? "" : environment,
+                                  program.parent_path());
 }
 
 void declare(CLI::App& app, Flags& flags) {
@@ -61,8 +60,9 @@ void declare(CLI::App& app, Flags& flags) {
   app.get_option("--scenario")
       ->required(false)
       ->description(
-          "scenario file (YAML), or the name of one in the folder scenarios beside this program")
-      ->default_str(kDefaultScenario);
+          "scenario file (YAML), or the name of one in the folder scenarios beside this program; "
+          "default: environment variable HLC_SCENARIO, else the only line of the file "
+          "default_scenario beside this program, else lab_three_cars");
   app.add_option("--node_id", flags.node_id,
                  "name in the log; default: high_level_controller_<id>");
   app.add_option("--dds_initial_peer", flags.dds_initial_peer,
@@ -114,11 +114,11 @@ hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::Vehicle
   options.core = flags.core;
   options.startup_timeout = network.startup_timeout();
   options.time = hlc::machine::run_time(network.simulated_time);
-  const bool keeps_commands = options.transport == hlc::dds::Transport::kLoopback;
+  const bool is_in_the_lab = options.transport == hlc::dds::Transport::kLab;
   options.rules = network.simulated_time
-                      ? hlc::high_level_controller::rules_in_logical_time(keeps_commands)
+                      ? hlc::high_level_controller::rules_in_logical_time(is_in_the_lab)
                       : hlc::high_level_controller::rules_in_real_time(
-                            keeps_commands, hlc::high_level_controller::StepDeadlines{},
+                            is_in_the_lab, hlc::high_level_controller::StepDeadlines{},
                             hlc::time::nanoseconds(options.startup_timeout));
   return options;
 }
@@ -128,6 +128,9 @@ std::shared_ptr<hlc::process::HlcProcess> make_process(const Flags& flags,
                                                        int vehicle_id) {
   const hlc::VehicleId id{static_cast<std::uint8_t>(vehicle_id)};
   hlc::process::HlcProcessOptions options = process_options(flags, id);
+  if (!flags.is_scenario_given) {
+    spdlog::info("{}: scenario {}", options.node_id, flags.scenario.file.string());
+  }
   options.configuration = [file = scenario.automaton_file] {
     return hlc::maneuver_design::read_configuration_of(file);
   };
@@ -150,12 +153,13 @@ int main(int argc, char** argv) {
                "high_level_controller"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) return *code;
   const std::string program = "high_level_controller";
   std::optional<hlc::scenario::Scenario> scenario;
   const int code = hlc::apps::exit_code_of(program.c_str(), [&] {
     hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
-    flags.scenario.file = scenario_file(flags.scenario.file);
+    flags.is_scenario_given = !flags.scenario.file.empty();
+    flags.scenario.file = chosen_scenario(flags.scenario.file);
     scenario = hlc::scenario::read_scenario(flags.scenario);
     if (flags.problem_folder && scenario->policy != hlc::policy::kNoPolicy) {
       throw std::invalid_argument("--dump-problems with policy " + scenario->policy +

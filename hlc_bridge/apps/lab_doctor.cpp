@@ -11,9 +11,13 @@
 #include "hlc_bridge/doctor/listen.hpp"
 #include "hlc_bridge/doctor/shared_memory.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
 
 namespace {
+
+/// For what is missing: discovery takes its time on a busy machine.
+constexpr std::chrono::seconds kPatience{10};
 
 struct Flags {
   hlc::apps::NetworkFlags network;
@@ -34,7 +38,10 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
   hlc::apps::declare_controller_peers(app, flags.controller_peers);
-  app.add_option("--listen_s", flags.listen_s, "how long to listen")
+  app.add_option(
+         "--listen_s", flags.listen_s,
+         "how long to listen, from the first state of every vehicle on; for what is missing "
+         "10 s longer")
       ->capture_default_str()
       ->check(hlc::apps::within(0.5, 600.0));
   flags.network.declare_network(app);
@@ -55,7 +62,7 @@ hlc::doctor::ListenOptions listen_options(const Flags& flags) {
   options.discovery_server = network.discovery_server();
   hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
-  options.time = std::chrono::milliseconds{static_cast<int>(1000.0 * flags.listen_s)};
+  options.time = kPatience + std::chrono::milliseconds{static_cast<int>(1000.0 * flags.listen_s)};
   return options;
 }
 
@@ -94,8 +101,12 @@ int main(int argc, char** argv) {
     }
     signals.on_stop([&stop](int) { stop = true; });
     findings.push_back(hlc::doctor::leftovers(hlc::doctor::shared_memory_files()));
+    const auto span = static_cast<hlc::Nanoseconds>(1e9 * flags.listen_s);
     const hlc::doctor::Received received =
-        hlc::doctor::listen(options, [&stop](const hlc::doctor::Received&) { return stop.load(); });
+        hlc::doctor::listen(options, [&](const hlc::doctor::Received& so_far) {
+          return stop.load() || hlc::doctor::is_complete(flags.vehicle_ids, so_far,
+                                                         hlc::time::real_time_now(), span);
+        });
     std::ranges::move(
         hlc::doctor::diagnose(flags.vehicle_ids, received, hlc::apps::program_version()),
         std::back_inserter(findings));

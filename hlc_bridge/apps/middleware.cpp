@@ -67,7 +67,7 @@ hlc::process::MiddlewareOptions process_options(const Flags& flags) {
   options.discovery_server = flags.network.discovery_server();
   const bool is_logical = flags.network.simulated_time;
   const bool beside_lab_programs = options.transport == hlc::dds::Transport::kLab;
-  options.time = hlc::machine::run_time(is_logical);
+  options.time = hlc::machine::run_time(is_logical, beside_lab_programs);
   options.rules = is_logical ? hlc::middleware::logical_middleware_rules(beside_lab_programs)
                              : hlc::middleware::real_middleware_rules(beside_lab_programs);
   options.offset = flags.offset_nanoseconds;
@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
                "middleware"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
+  if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) {
     return *code;
   }
   return hlc::apps::run_program(

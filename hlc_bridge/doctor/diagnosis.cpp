@@ -14,11 +14,23 @@ namespace {
 
 constexpr Nanoseconds kThisCentury = 946'684'800 * kNanosecondsPerSecond;  // since 1970 [ns]
 constexpr double kFewestStates_hz = 25.0;  // of 50 Hz: half of them lost
+constexpr double kShortest_s = 0.2;        // for a rate
 constexpr std::int64_t kClockAhead_ns = 5'000'000;
 constexpr std::int64_t kClockBehind_ns = 100'000'000;
 
 std::string milliseconds(std::int64_t ns) {
   return fmt::format("{:.1f} ms", 1e-6 * static_cast<double>(ns));
+}
+
+/// Advice for stamps that do not fit this machine's clock; empty if they do.
+std::string advice_on_clocks(std::int64_t least_age_ns) {
+  if (least_age_ns < -kClockAhead_ns) {
+    return "synchronise the clocks (chrony or NTP) before a run in real time";
+  }
+  if (least_age_ns > kClockBehind_ns) {
+    return "synchronise the clocks (chrony or NTP), then look for a slow network";
+  }
+  return "";
 }
 
 Finding of_lab_control(const Received& received) {
@@ -41,7 +53,8 @@ Finding of_vehicle(int id, const Received& received) {
             "multicast must pass, or all must reach the same discovery server"};
   }
   const ReceivedVehicle& vehicle = found->second;
-  const double rate_hz = static_cast<double>(vehicle.states) / received.listened_s.count();
+  const double since_first_s = 1e-9 * static_cast<double>(received.ended_at - vehicle.first_at);
+  const double rate_hz = static_cast<double>(vehicle.states) / std::max(since_first_s, kShortest_s);
   const std::string states = fmt::format("{:.1f} states per second", rate_hz);
   if (!vehicle.is_located) {
     return {Verdict::kBad,
@@ -56,13 +69,13 @@ Finding of_vehicle(int id, const Received& received) {
     return {Verdict::kBad,
             name + "its clock is ahead of this machine's by at least " +
                 milliseconds(-vehicle.least_age_ns),
-            "synchronise the clocks (chrony or NTP) before a run in real time"};
+            advice_on_clocks(vehicle.least_age_ns)};
   }
   if (vehicle.least_age_ns > kClockBehind_ns) {
     return {Verdict::kBad,
             name + "its states are at least " + milliseconds(vehicle.least_age_ns) +
                 " old when they arrive",
-            "synchronise the clocks (chrony or NTP), then look for a slow network"};
+            advice_on_clocks(vehicle.least_age_ns)};
   }
   const std::string age = ", at least " + milliseconds(vehicle.least_age_ns) + " old";
   if (rate_hz < kFewestStates_hz) {
@@ -82,7 +95,11 @@ Finding of_controller(int id, const Received& received) {
 
 Finding of_middleware(const Received& received) {
   if (received.lists > 0) {
-    return {Verdict::kGood, fmt::format("middleware: {} state lists", received.lists), ""};
+    const std::string lists = fmt::format("middleware: {} state lists", received.lists);
+    if (!received.least_list_age_ns) return {Verdict::kGood, lists, ""};
+    const std::string advice = advice_on_clocks(*received.least_list_age_ns);
+    return {advice.empty() ? Verdict::kGood : Verdict::kBad,
+            lists + ", at least " + milliseconds(*received.least_list_age_ns) + " old", advice};
   }
   return {Verdict::kBad, "middleware: no state list",
           "start it on this machine with the same --middleware_domain (with --transport=lab both "
@@ -106,10 +123,29 @@ void note(const VehicleState& state, Nanoseconds now, Received& received) {
   const auto age_ns = static_cast<std::int64_t>(now - state.create_stamp);
   const auto [found, is_first] = received.vehicles.try_emplace(state.vehicle_id);
   ReceivedVehicle& vehicle = found->second;
+  if (is_first) vehicle.first_at = now;
   ++vehicle.states;
   vehicle.least_age_ns = is_first ? age_ns : std::min(vehicle.least_age_ns, age_ns);
   vehicle.is_located = is_located(state);
   vehicle.has_logical_stamps = state.create_stamp < kThisCentury;
+}
+
+void note(const VehicleStateList& list, Nanoseconds now, Received& received) {
+  ++received.lists;
+  if (list.t_now < kThisCentury) return;
+  const auto age_ns = static_cast<std::int64_t>(now - list.t_now);
+  received.least_list_age_ns = std::min(received.least_list_age_ns.value_or(age_ns), age_ns);
+}
+
+bool is_complete(const std::vector<int>& vehicle_ids, const Received& received, Nanoseconds now,
+                 Nanoseconds span) {
+  const auto is_known = [&](int id) {
+    const auto vehicle = received.vehicles.find(static_cast<std::uint8_t>(id));
+    return vehicle != received.vehicles.end() && now >= vehicle->second.first_at + span &&
+           received.controllers.contains(controller_name(static_cast<std::uint8_t>(id)));
+  };
+  return received.lab_control_answers && (!received.listened_to_middleware || received.lists > 0) &&
+         std::ranges::all_of(vehicle_ids, is_known);
 }
 
 std::vector<Finding> diagnose(const std::vector<int>& vehicle_ids, const Received& received,

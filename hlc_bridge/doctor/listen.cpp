@@ -72,8 +72,10 @@ Received listen(const ListenOptions& options,
   }
   std::optional<dds::Reader<VehicleStateList>> lists;
   if (local) {
-    lists.emplace(*local, dds::topics::vehicle_state_list(),
-                  [&](const VehicleStateList&) { signal.post([&] { ++received.lists; }); });
+    lists.emplace(*local, dds::topics::vehicle_state_list(), [&](const VehicleStateList& list) {
+      const Nanoseconds now = time::real_time_now();
+      signal.post([&] { note(list, now, received); });
+    });
   }
 
   const auto is_over = [&] { return is_enough(received); };
@@ -89,7 +91,7 @@ Received listen(const ListenOptions& options,
     });
   }));
   return signal.locked([&] {
-    received.listened_s = std::chrono::steady_clock::now() - begin;
+    received.ended_at = time::real_time_now();
     return received;
   });
 }

@@ -20,7 +20,7 @@ struct ListenOptions {
   std::chrono::milliseconds time{3000};
 };
 
-/// Joins the domains and listens, for `time` or until `is_enough(received so far)`. Publishes
+/// Joins the domains and listens, for `time` at most, until `is_enough(received so far)`. Publishes
 /// nothing but requests for the lab control's period: a run is not disturbed.
 /// @throws std::invalid_argument, std::runtime_error if a domain cannot be joined
 [[nodiscard]] Received listen(const ListenOptions& options,

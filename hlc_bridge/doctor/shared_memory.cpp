@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace hlc::doctor {
@@ -20,9 +21,16 @@ bool is_number(const std::string& text) {
          std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
 }
 
-/// Files that processes have mapped.
-std::set<std::string> mapped_files(const fs::path& folder, const fs::path& proc) {
-  std::set<std::string> files;
+std::string name_of(const fs::path& process) {
+  std::string name;
+  std::getline(std::ifstream(process / "comm"), name);
+  return name + " (" + process.filename().string() + ")";
+}
+
+/// Files that processes have mapped, with these processes.
+std::map<std::string, std::set<std::string>> mapped_files(const fs::path& folder,
+                                                          const fs::path& proc) {
+  std::map<std::string, std::set<std::string>> files;
   std::error_code ignored;  // processes end while they are inspected
   for (const fs::directory_entry& process : fs::directory_iterator(proc, ignored)) {
     if (!is_number(process.path().filename())) continue;
@@ -30,7 +38,8 @@ std::set<std::string> mapped_files(const fs::path& folder, const fs::path& proc)
     const std::string prefix = folder.string() + "/";
     for (std::string line; std::getline(maps, line);) {
       const std::size_t begin = line.find(prefix);
-      if (begin != std::string::npos) files.insert(line.substr(begin + prefix.size()));
+      if (begin == std::string::npos) continue;
+      files[line.substr(begin + prefix.size())].insert(name_of(process.path()));
     }
   }
   return files;
@@ -39,7 +48,7 @@ std::set<std::string> mapped_files(const fs::path& folder, const fs::path& proc)
 }  // namespace
 
 std::vector<SharedMemoryFile> shared_memory_files(const fs::path& folder, const fs::path& proc) {
-  const std::set<std::string> mapped = mapped_files(folder, proc);
+  const std::map<std::string, std::set<std::string>> mapped = mapped_files(folder, proc);
   std::vector<SharedMemoryFile> files;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
@@ -48,13 +57,17 @@ std::vector<SharedMemoryFile> shared_memory_files(const fs::path& folder, const 
         kPrefixes, [&](const char* prefix) { return name.starts_with(prefix); });
     if (!is_ours) continue;
     const std::uintmax_t bytes = entry.file_size(ignored);
-    files.push_back({name, ignored ? 0 : bytes, mapped.contains(name)});
+    files.push_back({name, ignored ? 0 : bytes, {}});
   }
   // The lock file of a segment or port (…_el) is in use if that segment or port is.
   for (SharedMemoryFile& file : files) {
     const std::string locked =
         file.name.ends_with("_el") ? file.name.substr(0, file.name.size() - 3) : file.name;
-    file.is_used = file.is_used || mapped.contains(locked);
+    for (const std::string& mapping : {file.name, locked}) {
+      if (const auto found = mapped.find(mapping); found != mapped.end()) {
+        file.users.insert(found->second.begin(), found->second.end());
+      }
+    }
   }
   std::ranges::sort(files, {}, &SharedMemoryFile::name);
   return files;
@@ -64,20 +77,24 @@ Finding leftovers(const std::vector<SharedMemoryFile>& files) {
   std::size_t count = 0;
   double bytes = 0.0;
   const SharedMemoryFile* example = nullptr;
+  std::set<std::string> users;
   for (const SharedMemoryFile& file : files) {
-    if (file.is_used) continue;
+    users.insert(file.users.begin(), file.users.end());
+    if (!file.users.empty()) continue;
     ++count;
     bytes += static_cast<double>(file.bytes);
     example = &file;
   }
-  if (count == 0) {
-    return {Verdict::kGood,
-            fmt::format("shared memory: nothing left over ({} files in use)", files.size()), ""};
-  }
+  const std::string in_use =
+      users.empty()
+          ? "none in use"
+          : fmt::format("{} files in use by {}", files.size() - count, fmt::join(users, ", "));
+  if (count == 0) return {Verdict::kGood, "shared memory: nothing left over; " + in_use, ""};
   return {Verdict::kNote,
-          fmt::format("shared memory: {} unused files in /dev/shm, {} MB, such as {}", count,
-                      static_cast<int>(bytes / 1e6), example->name),
-          "remove them when no program of the lab runs: rm /dev/shm/*fastrtps_* "
+          fmt::format("shared memory: {} unused files in /dev/shm, {} MB, such as {}; {}", count,
+                      static_cast<int>(bytes / 1e6), example->name, in_use),
+          "they may belong to processes of another user, which this one may not inspect; remove "
+          "them when no program of the lab runs: rm /dev/shm/*fastrtps_* "
           "/dev/shm/fast_datasharing_*"};
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@ namespace hlc::doctor {
 struct SharedMemoryFile {
   std::string name;
   std::uintmax_t bytes{};
-  bool is_used{};  ///< a process that this user may inspect has mapped it
+  /// Processes that have mapped it, such as "middleware (4711)"; only those that this user may
+  /// inspect
+  std::set<std::string> users;
 };
 
 /// Those of a folder, by name. A process that dies leaves its files behind.
@@ -21,7 +24,7 @@ struct SharedMemoryFile {
 [[nodiscard]] std::vector<SharedMemoryFile> shared_memory_files(
     const std::filesystem::path& folder = "/dev/shm", const std::filesystem::path& proc = "/proc");
 
-/// Reports files that no process uses.
+/// Reports which processes use the files, and the files that none uses.
 [[nodiscard]] Finding leftovers(const std::vector<SharedMemoryFile>& files);
 
 }  // namespace hlc::doctor

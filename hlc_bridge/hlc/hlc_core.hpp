@@ -49,12 +49,14 @@ class HlcCore {
   /// until the experiment begins.
   void note(const VehicleStateList& list, const controller::Observation& observation);
 
-  /// Before the experiment has begun here: whether the vehicle may be commanded to stand where it
-  /// is. A moving vehicle still drives the command of a former controller, or is moved by hand, and
-  /// an unseen one may do so: it gets no plan, and no command that has an effect. The same holds
-  /// for a vehicle that has not stood in the lists of a whole horizon, since the plan of its former
-  /// controller may be to wait and then drive, and for one whose states cannot be trusted yet
-  /// (SettledStates). Once commanded to stand, it is commanded so
+  /// Before the experiment has begun here: whether the vehicle may be planned, and commanded, to
+  /// stand where it is. (Under kAtTrigger the owner sends such a command only after the trigger's
+  /// time: until then the operator moves the vehicle.) A moving vehicle still drives the command of
+  /// a former controller, or is moved by hand, and an unseen one may do so: it gets no plan, and no
+  /// command that has an effect. The same holds for a vehicle that has not stood in the lists of a
+  /// whole horizon, since the plan of its former controller may be to wait and then drive, and for
+  /// one whose states cannot be trusted yet (SettledStates). Once commanded to stand, it is
+  /// commanded so
   ///   * under kAtTrigger as long as it is not seen moving;
   ///   * under kTogether until the experiment begins.
   ///
@@ -63,6 +65,9 @@ class HlcCore {
   /// plan. (The list must show the vehicle: a middleware that was restarted begins with the lists
   /// of the past, in which no states are valid yet.)
   [[nodiscard]] bool may_stand_by(const controller::Observation& observation, StartRule rule) const;
+
+  /// The own vehicle's states can be trusted (SettledStates), as of the last list.
+  [[nodiscard]] bool has_own_settled() const { return has_settled(controller_->options().vehicle); }
 
   /// True if the experiment has begun, or begins with this list: a plan is in force, the vehicle
   /// fits its route (Controller::fits_route), and

@@ -42,11 +42,12 @@ struct AfterStepFailure {
 };
 
 /// * SystemTrigger: those of the local domain; of the lab domain only the stop symbol.
+/// * Parameter: an answer of the lab control (HlcRules::asks_lab_control).
 /// * StopSignal: the vehicle keeps its whole plan, unlike after the stop symbol.
 using HlcEvent =
     std::variant<HlcPeers, VehicleStateList, SystemTrigger, RunState, coordination::Traffic,
                  coordination::Prediction, coordination::Outcome, AutomatonRequest, PreparedRequest,
-                 machine::StopSignal, LostMessage, AfterStepFailure>;
+                 Parameter, machine::StopSignal, LostMessage, AfterStepFailure>;
 
 /// Prepare this request concurrently (`prepare`); the result is the event PreparedRequest. One at a
 /// time.
@@ -67,8 +68,8 @@ struct AfterStep {};
 /// Message types are to be published.
 using HlcAction =
     std::variant<coordination::Traffic, coordination::Prediction, coordination::Outcome,
-                 TrajectoryCommand, ReportRecord, ReadyStatus, StopRequest, AutomatonAnswer,
-                 machine::LogLine, PrepareRequest, DrawStep, AfterStep>;
+                 TrajectoryCommand, ReportRecord, ReadyStatus, StopRequest, ParameterRequest,
+                 AutomatonAnswer, machine::LogLine, PrepareRequest, DrawStep, AfterStep>;
 
 /// Actions in the order of execution.
 class HlcActions {

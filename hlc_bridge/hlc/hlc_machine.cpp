@@ -151,7 +151,7 @@ bool HlcMachine::refuse(const Instant& now) {
 
 bool HlcMachine::gather(const Instant& now) {
   if (rules_.start == StartRule::kTogether) {
-    life_.readiness().update(has_started());
+    life_.update_readiness(now.wall, has_started(), actions_);
     if (!life_.readiness().is_ready()) {
       static_cast<void>(ends(now));
       return false;
@@ -191,6 +191,7 @@ bool HlcMachine::prepare(const Instant& now) {
   subgraphs_.begin_step(controller, current_.list, observation.step, start_.first_step(), actions_);
   current_.reconfiguring_ns = cpu_time_() - from;
   if (current_.is_running) {
+    notes_.note_placement(controller, actions_);
     controller.set_minimal_risk_stop(life_.is_minimal_risk_stop());
     step_.begin(current_.list, observation, now, actions_);
     phase_ = Phase::kStepping;
@@ -204,7 +205,7 @@ bool HlcMachine::prepare(const Instant& now) {
     disregard_own_vehicle();
   }
   ReportRecord record{.report = step_.stand_by(observation)};
-  notes_.note_placement(controller, actions_);
+  if (core_.has_own_settled()) notes_.note_placement(controller, actions_);
   finish(std::move(record), now);
   return false;
 }
@@ -213,6 +214,14 @@ bool HlcMachine::may_stand_by() const {
   const bool yields =
       rules_.start == StartRule::kAtTrigger && life_.readiness().yields_to_duplicate();
   return !yields && core_.may_stand_by(current_.observation, rules_.start);
+}
+
+/// Under kAtTrigger: until the experiment begins, and where the vehicle fits no route, the operator
+/// moves it. Any command would be newer than the lab control centre's, which are valid 300 ms after
+/// they are made.
+bool HlcMachine::leaves_vehicle_alone() const {
+  if (rules_.start != StartRule::kAtTrigger || current_.is_running) return false;
+  return !controller().fits_route() || !has_started() || current_.list.t_now < *start_.time();
 }
 
 /// Under kTogether every list is answered: of a vehicle that is to be left alone without a plan, as
@@ -255,7 +264,7 @@ bool HlcMachine::report() {
 
 /// Also enters it in the report if it is not the plan.
 void HlcMachine::publish_command(coordination::Report& report, const Instant& now) {
-  if (ending_.is_asked) return;
+  if (ending_.is_asked || leaves_vehicle_alone()) return;
   if (rules_.spares_lost_vehicle && controller().is_vehicle_lost()) return;
   const AnswerToList answer = core_.answer(current_.list);
   copies_.publish(answer, now.wall, actions_);

@@ -114,6 +114,7 @@ class HlcMachine {
   void take(const coordination::Outcome& outcome) { step_.receive(outcome); }
   void take(const AutomatonRequest& request);
   void take(const PreparedRequest& prepared) { subgraphs_.receive(prepared); }
+  void take(const Parameter& answer) { life_.receive(answer); }
   void take(const machine::StopSignal& /*signal*/) { ending_.is_asked = true; }
   void take(const LostMessage& message) { actions_.warn(message.line); }
   void take(const AfterStepFailure& failure);
@@ -131,6 +132,7 @@ class HlcMachine {
   [[nodiscard]] bool has_started() const { return start_.time().has_value(); }
   [[nodiscard]] bool ends(const Instant& now);
   [[nodiscard]] bool may_stand_by() const;
+  [[nodiscard]] bool leaves_vehicle_alone() const;
   void disregard_own_vehicle();
   void enter_experiment();
   void finish(ReportRecord record, const Instant& now);

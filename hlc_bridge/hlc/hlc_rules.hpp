@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "hlc_bridge/messages/messages.hpp"
+#include "hlc_bridge/messages/time_grid.hpp"
 
 namespace hlc::high_level_controller {
 
@@ -17,13 +18,14 @@ struct StepDeadlines {
   double look_ahead{0.50};  ///< later than this policies do not look ahead in this step
 };
 
-/// How a controller enters the experiment. Until then the vehicle is commanded to stand only where
+/// How a controller enters the experiment. Until then the vehicle is planned to stand only where
 /// that is safe (HlcCore::may_stand_by).
 enum class StartRule : std::uint8_t {
   /// All controllers derive the first step from the same lists: the first list is answered only
   /// when all of them are matched, and every list from then on.
   kTogether,
-  /// From the start trigger's time on, or later by joining the running experiment.
+  /// From the start trigger's time on, or later by joining the running experiment. Before that time
+  /// nothing is sent to the vehicle, nor ever to one that fits no route.
   kAtTrigger,
 };
 
@@ -57,16 +59,28 @@ struct HlcRules {
   /// Since the start: a name that is alive for longer than this is a running duplicate instance,
   /// not the trace of a dead one. Longer than the lease of a participant.
   Nanoseconds duplicate_patience{};
-  Nanoseconds middleware_patience{};   ///< for a middleware that is lost; 0: none
+  Nanoseconds middleware_patience{};  ///< for a middleware that is lost; 0: none
+  /// The lab control is asked for a parameter every second, and is lost if it stops answering.
+  bool asks_lab_control{};
+  /// The start is waited for without a limit, and reminders are logged every kReminderPause. False:
+  /// the controller ends if a participant is missing after the startup timeout.
+  bool waits_for_start{};
+  /// With waits_for_start: an active vehicle whose controller has not appeared this long after the
+  /// own start is driven by something else, and is a missing vehicle.
+  Nanoseconds controller_patience{};
   Nanoseconds preparation_patience{};  ///< of a step for requested subgraphs; 0: none
   /// While it waits for the others' traffic it warms up (Controller::warm_up): for speed only.
   bool warms_up{true};
 };
 
-/// @param keeps_commands  the middleware keeps all commands until it reads them (loopback); false:
-/// it keeps the last one, as the lab's does
-[[nodiscard]] HlcRules rules_in_logical_time(bool keeps_commands);
-[[nodiscard]] HlcRules rules_in_real_time(bool keeps_commands, const StepDeadlines& deadlines,
+/// Longest time between two lines about what a controller that waits for the start waits for.
+inline constexpr Nanoseconds kReminderPause = 30 * kNanosecondsPerSecond;
+
+/// @param is_in_the_lab  the other programs may be the lab's (its transport). Their middleware
+/// keeps the last command only; ours on loopback keeps all until it reads them. And the lab's
+/// operator may start the experiment minutes later, with vehicles that other software drives.
+[[nodiscard]] HlcRules rules_in_logical_time(bool is_in_the_lab);
+[[nodiscard]] HlcRules rules_in_real_time(bool is_in_the_lab, const StepDeadlines& deadlines,
                                           Nanoseconds startup_timeout);
 
 }  // namespace hlc::high_level_controller

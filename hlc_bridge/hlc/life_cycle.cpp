@@ -7,6 +7,7 @@
 
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/run_parameters.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
 namespace hlc::high_level_controller {
@@ -15,7 +16,7 @@ LifeCycle::LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds start
     : vehicle_(vehicle),
       rules_(rules),
       startup_timeout_(startup_timeout),
-      readiness_(vehicle, rules.start, rules.duplicate_patience),
+      readiness_(vehicle, rules),
       middleware_(middleware_name(vehicle.value), rules.middleware_patience) {}
 
 void LifeCycle::receive(const HlcPeers& peers) {
@@ -33,15 +34,29 @@ void LifeCycle::receive_list(Nanoseconds wall) {
 void LifeCycle::watch(Nanoseconds wall, bool has_started, HlcActions& actions) {
   if (!began_at_) {
     began_at_ = wall;
-    peers_notice_ = list_notice_ = machine::WaitNotice{wall};
+    list_notice_ = machine::WaitNotice{wall};
+    peers_notice_ = rules_.waits_for_start ? machine::WaitNotice{wall, kReminderPause}
+                                           : machine::WaitNotice{wall};
   }
   watch_lab_control(wall, actions);
   middleware_.look(wall, actions);
-  readiness_.update(has_started);
+  update_readiness(wall, has_started, actions);
   remind(wall, actions);
 }
 
+void LifeCycle::update_readiness(Nanoseconds wall, bool has_started, HlcActions& actions) {
+  if (readiness_.is_ready()) return;
+  readiness_.update(has_started, wall - *began_at_);
+  const std::set<std::string> absent = readiness_.absent_controllers();
+  if (!rules_.waits_for_start || !readiness_.is_ready() || absent.empty()) return;
+  actions.warn("absent: " + machine::joined(absent) +
+               "; their vehicles may be driven by other software and are avoided");
+}
+
 void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
+  if (rules_.asks_lab_control && lab_control_.request_is_due(wall)) {
+    actions.add(ParameterRequest{.name = kPeriodParameter});
+  }
   switch (lab_control_.look(is_lab_control_absent_, stop_request_readers_, wall)) {
     case machine::LabControlWatch::Change::kNone:
       return;
@@ -68,17 +83,37 @@ void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   }
 }
 
+/// @param missing  what the start waits for
+void LifeCycle::remind_of_start(Nanoseconds wall, const std::string& missing, HlcActions& actions) {
+  if (ready_.next_reminder != 0 && wall >= ready_.next_reminder) {
+    actions.info("waiting: " + missing);
+    ready_.next_reminder = 0;
+  }
+  if (ready_.next_reminder == 0) ready_.next_reminder = wall + kReminderPause;
+}
+
 void LifeCycle::publish_ready(Nanoseconds wall, const controller::Controller& controller,
                               bool has_started, HlcActions& actions) {
   const bool is_off_route = controller.placement() && !controller.fits_route();
   const bool is_unseen = rules_.start == StartRule::kAtTrigger && !controller.placement();
-  repeats_ready_ = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
-  if (!repeats_ready_ || wall < next_ready_at_) return;
-  if (next_ready_at_ == 0 && rules_.start == StartRule::kAtTrigger) {
+  ready_.repeats = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
+  if (rules_.waits_for_start && rules_.start == StartRule::kAtTrigger) {
+    if (!readiness_.is_ready() || has_started) {
+      ready_.next_reminder = 0;
+    } else {
+      remind_of_start(wall,
+                      is_off_route ? "the vehicle fits no route"
+                      : is_unseen  ? "the vehicle has not been seen standing yet"
+                                   : "no start trigger received",
+                      actions);
+    }
+  }
+  if (!ready_.repeats || wall < ready_.next_at) return;
+  if (ready_.next_at == 0 && rules_.start == StartRule::kAtTrigger) {
     actions.info("ready; waiting for the start trigger");
   }
   actions.add(ReadyStatus{.source_id = controller_ready_id(vehicle_.value)});
-  next_ready_at_ = wall + kReadyRepeat;
+  ready_.next_at = wall + kReadyRepeat;
 }
 
 std::optional<int> LifeCycle::exit_code(Nanoseconds wall, bool has_list,
@@ -104,13 +139,16 @@ std::optional<Nanoseconds> LifeCycle::wake_up() const {
   using machine::earlier;
   if (!began_at_) return std::nullopt;
   std::optional<Nanoseconds> wake = earlier(lab_control_.wake_up(), middleware_.wake_up());
+  if (rules_.asks_lab_control) wake = earlier(wake, lab_control_.next_request());
   if (readiness_.yields_to_duplicate()) {
-    wake = earlier(wake, *began_at_ + readiness_.duplicate_patience() + 1);
+    wake = earlier(wake, *began_at_ + rules_.duplicate_patience + 1);
   }
   if (!readiness_.is_ready()) {
-    return earlier(wake, std::min(peers_notice_.next(), *began_at_ + startup_timeout_ + 1));
+    wake = earlier(wake, peers_notice_.next());
+    return rules_.waits_for_start ? wake : earlier(wake, *began_at_ + startup_timeout_ + 1);
   }
-  if (repeats_ready_) wake = earlier(wake, next_ready_at_);
+  if (ready_.next_reminder != 0) wake = earlier(wake, ready_.next_reminder);
+  if (ready_.repeats) wake = earlier(wake, ready_.next_at);
   return rules_.logs_missing_lists ? earlier(wake, list_notice_.next()) : wake;
 }
 

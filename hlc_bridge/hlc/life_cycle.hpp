@@ -22,7 +22,8 @@ namespace hlc::high_level_controller {
 ///     processor time for a lease, all others seem lost);
 ///   * it yields to a duplicate instance (Readiness);
 ///   * the lab control is lost for longer than kControllerStays (until then: minimal-risk stop);
-///   * a participant has not appeared within the startup timeout.
+///   * a participant has not appeared within the startup timeout, unless the start is waited for
+///     (HlcRules::waits_for_start).
 class LifeCycle {
  public:
   LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds startup_timeout);
@@ -31,6 +32,8 @@ class LifeCycle {
   void receive(const RunState& state) {
     minimal_risk_stop_ |= state.phase == RunPhase::kMinimalRiskStop;
   }
+  /// An answer of the lab control.
+  void receive(const Parameter& /*answer*/) { lab_control_.receive_answer(); }
   /// A list was received. @param wall  now
   void receive_list(Nanoseconds wall);
 
@@ -43,7 +46,9 @@ class LifeCycle {
   }
   [[nodiscard]] bool has_stop_request_readers() const { return stop_request_readers_ > 0; }
 
-  /// At every advance. @param has_started  the experiment has (ExperimentStart)
+  /// Whether the controller is ready now. @param has_started  the experiment has (ExperimentStart)
+  void update_readiness(Nanoseconds wall, bool has_started, HlcActions& actions);
+  /// At every advance.
   void watch(Nanoseconds wall, bool has_started, HlcActions& actions);
   /// At every advance between two steps: publishes repeatedly that the controller is ready, until
   /// the start.
@@ -60,10 +65,18 @@ class LifeCycle {
  private:
   static constexpr Nanoseconds kReadyRepeat = kNanosecondsPerSecond / 2;
 
+  struct ReadyNotices {
+    bool repeats{};
+    Nanoseconds next_at{};        ///< 0: not published yet
+    Nanoseconds next_reminder{};  ///< that the start is awaited; 0: it is not
+  };
+
   void watch_lab_control(Nanoseconds wall, HlcActions& actions);
   void remind(Nanoseconds wall, HlcActions& actions);
+  void remind_of_start(Nanoseconds wall, const std::string& missing, HlcActions& actions);
   [[nodiscard]] bool is_start_overdue(Nanoseconds wall) const {
-    return !readiness_.is_ready() && wall > *began_at_ + startup_timeout_;
+    return !rules_.waits_for_start && !readiness_.is_ready() &&
+           wall > *began_at_ + startup_timeout_;
   }
 
   VehicleId vehicle_;
@@ -79,8 +92,7 @@ class LifeCycle {
   machine::WaitNotice peers_notice_{0};  ///< for missing participants
   machine::WaitNotice list_notice_{0};   ///< for lists
   Nanoseconds last_list_at_{};
-  bool repeats_ready_{};
-  Nanoseconds next_ready_at_{};  ///< 0: not published yet
+  ReadyNotices ready_;
 };
 
 }  // namespace hlc::high_level_controller

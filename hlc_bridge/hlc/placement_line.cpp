@@ -23,10 +23,14 @@ std::string placement_line(const controller::Controller& controller) {
         id_of(controller), route, controller.routes().size() > 1 ? " (best fit)" : "",
         placement.s_m, 1e3 * placement.distance_m, placement.turned_rad);
   }
+  const Pose car = controller.plan_in_force().pose_at(controller.last_step());
+  const Point place = controller.route().path.at(placement.s_m);
   return fmt::format(
-      "vehicle {} fits no route: nearest is {} at {:.3f} m; it reaches {:.0f} mm beyond the lanes "
+      "vehicle {} fits no route: nearest is {} at {:.3f} m; move it by x {:+.2f} m, y {:+.2f} m to "
+      "({:.2f}, {:.2f}) and turn it by {:+.2f} rad; it reaches {:.0f} mm beyond the lanes "
       "(must be <= {:.0f} mm), is turned by {:.3f} rad (must be <= {:.3f} rad){}",
-      id_of(controller), route, placement.s_m, 1e3 * std::max(0.0, placement.beyond_m()),
+      id_of(controller), route, placement.s_m, place.x() - car.x_m, place.y() - car.y_m, place.x(),
+      place.y(), -placement.turned_rad, 1e3 * std::max(0.0, placement.beyond_m()),
       1e3 * road::kFitsBeyond_m, placement.turned_rad, road::kFitsTurned_rad,
       placement.is_on_ground ? "" : ", and is not on the map");
 }

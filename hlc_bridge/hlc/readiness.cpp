@@ -25,10 +25,23 @@ std::set<std::string> Readiness::unmatched_peers() const {
   return names;
 }
 
-void Readiness::update(bool has_started) {
+std::set<std::string> Readiness::absent_controllers() const {
+  std::set<std::string> names = unmatched_peers();
+  std::erase_if(names, [this](const std::string& name) {
+    return peers_.lab.alive.contains(name) || peers_.controllers.alive.contains(name);
+  });
+  return names;
+}
+
+void Readiness::update(bool has_started, Nanoseconds since_start) {
   if (is_ready_ || has_duplicate() || active_.empty() || peers_.command_readers == 0) return;
-  const bool may_join = rule_ == StartRule::kAtTrigger && has_started;
-  if (!may_join && !unmatched_peers().empty()) return;
+  const bool may_join = rules_.start == StartRule::kAtTrigger && has_started;
+  const bool may_be_alone = rules_.waits_for_start && since_start >= rules_.controller_patience;
+  std::set<std::string> awaited = unmatched_peers();
+  if (may_be_alone) {
+    for (const std::string& name : absent_controllers()) awaited.erase(name);
+  }
+  if (!may_join && !awaited.empty()) return;
   is_ready_ = true;
   is_duplicate_received_ = false;
 }

@@ -19,9 +19,7 @@ namespace hlc::high_level_controller {
 /// each leaves as soon as it receives the other's traffic.
 class Readiness {
  public:
-  /// @param duplicate_patience  see HlcRules
-  Readiness(VehicleId vehicle, StartRule rule, Nanoseconds duplicate_patience)
-      : vehicle_(vehicle), rule_(rule), duplicate_patience_(duplicate_patience) {}
+  Readiness(VehicleId vehicle, const HlcRules& rules) : vehicle_(vehicle), rules_(rules) {}
 
   void receive(const HlcPeers& peers);
   /// Another instance has published for the own vehicle. (A process does not receive its own
@@ -33,17 +31,20 @@ class Readiness {
   /// To be called whenever something may have changed. Becomes ready when all participants receive
   /// what is published here; under kAtTrigger also as soon as the middleware does, if the
   /// experiment has started: a controller returns alone into a running experiment, and absent
-  /// participants are missing, as in any step.
-  void update(bool has_started);
+  /// participants are missing, as in any step. With HlcRules::waits_for_start controllers that have
+  /// not appeared within the patience are not waited for either.
+  /// @param since_start  wall time
+  void update(bool has_started, Nanoseconds since_start);
   [[nodiscard]] bool is_ready() const { return is_ready_; }
+  /// Of active vehicles; these have not appeared, or are lost.
+  [[nodiscard]] std::set<std::string> absent_controllers() const;
 
   /// Another instance controls the vehicle: this one must not.
   [[nodiscard]] bool yields_to_duplicate() const;
   /// As before, and the other instance is no trace of a dead one. @param since_start  wall time
   [[nodiscard]] bool leaves_to_duplicate(Nanoseconds since_start) const {
-    return yields_to_duplicate() && since_start > duplicate_patience_;
+    return yields_to_duplicate() && since_start > rules_.duplicate_patience;
   }
-  [[nodiscard]] Nanoseconds duplicate_patience() const { return duplicate_patience_; }
 
   /// The given vehicles whose controllers are alive. The controllers' network alone may have
   /// failed: a controller that is on the lab's network still commands its vehicle.
@@ -59,8 +60,7 @@ class Readiness {
   [[nodiscard]] std::set<std::string> unmatched_peers() const;
 
   VehicleId vehicle_;
-  StartRule rule_;
-  Nanoseconds duplicate_patience_;
+  HlcRules rules_;
   HlcPeers peers_;
   std::vector<VehicleId> active_;
   bool is_ready_{};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -53,6 +54,12 @@ class RealPacing : public Pacing {
   std::optional<Nanoseconds> wanted_;
 };
 
+/// Who starts a run in logical time.
+enum class LogicalStart : std::uint8_t {
+  kByOurs,    ///< our lab control, once all processes are present
+  kInTheLab,  ///< perhaps the operator of the lab's control centre
+};
+
 /// Logical time: ticks released one by one by the lab control (lab wire contract, 5.3). The process
 /// publishes which tick it wants next (ReadyStatus), and the tick is due when a SystemTrigger with
 /// exactly that time has arrived. Requesting a tick means that everything before it is done.
@@ -62,6 +69,12 @@ class RealPacing : public Pacing {
 /// others, and after `patience` the process ends. In a healthy run, the longest time without a
 /// trigger is that in which the lab control detects a death: kMessageTimeout + 2 s.
 ///
+/// In the lab (LogicalStart::kInTheLab) the operator starts the run when he likes: before the first
+/// trigger the patience has no limit. And the run may have started before the process has: its
+/// control centre, once it receives a request for a tick of its past ("out of sync"), sends
+/// no further triggers. So the process listens for kListen before it announces its first tick, and
+/// a tick that the triggers have passed is due at once, late: the next one lies in the future.
+///
 /// A process that requests no ticks (a controller, which follows lists; the lab control, which
 /// releases them) learns from it only that no time passes.
 class LogicalPacing : public Pacing {
@@ -70,14 +83,16 @@ class LogicalPacing : public Pacing {
   static constexpr Nanoseconds kPatience = 60 * kNanosecondsPerSecond;
   static constexpr Nanoseconds kMailDelay = 50 * kNanosecondsPerMillisecond;
 
+  static constexpr Nanoseconds kListen = 300 * kNanosecondsPerMillisecond;
+
   /// The first trigger may come as late as the last process appears.
   [[nodiscard]] static constexpr Nanoseconds patience_for(Nanoseconds startup_timeout) {
     return std::max(kPatience, startup_timeout + kPatience / 2);
   }
 
   /// @param since  wall time of the process's start
-  LogicalPacing(Nanoseconds patience, Nanoseconds since)
-      : patience_(patience), last_trigger_(since) {}
+  LogicalPacing(Nanoseconds patience, Nanoseconds since, LogicalStart start = {})
+      : patience_(patience), start_(start), last_trigger_(since) {}
 
   [[nodiscard]] Instant now(const Instant& clocks) const override {
     return {.run = released_.value_or(0), .wall = clocks.wall, .has_begun = released_.has_value()};
@@ -86,8 +101,9 @@ class LogicalPacing : public Pacing {
     if (tick == wanted_) return;
     wanted_ = tick;
     next_announcement_ = 0;
+    release_if_passed();
   }
-  [[nodiscard]] bool is_due() const override { return wanted_ && released_ == wanted_; }
+  [[nodiscard]] bool is_due() const override { return wanted_ && released_ >= wanted_; }
   [[nodiscard]] WakeUp wake_up() const override {
     return {.wall = wanted_ ? std::optional(next_announcement_) : std::nullopt};
   }
@@ -95,22 +111,37 @@ class LogicalPacing : public Pacing {
 
   bool on_trigger(Nanoseconds next_start, Nanoseconds wall) override {
     last_trigger_ = wall;
-    if (wanted_ != next_start) return false;  // for other processes
+    if (next_start != kStopSymbol) newest_trigger_ = std::max(newest_trigger_, next_start);
+    if (wanted_ != next_start) return release_if_passed();  // for other processes
     released_ = next_start;
     return true;
   }
   [[nodiscard]] std::optional<Nanoseconds> announcement(Nanoseconds wall) override {
     if (!wanted_ || is_due() || wall < next_announcement_) return std::nullopt;
+    if (start_ == LogicalStart::kInTheLab && !listens_until_) {
+      listens_until_ = next_announcement_ = wall + kListen;
+      return std::nullopt;
+    }
     next_announcement_ = wall + kRepeat;
     return wanted_;
   }
   [[nodiscard]] bool is_timed_out(Nanoseconds wall) const override {
+    if (start_ == LogicalStart::kInTheLab && newest_trigger_ == 0) return false;
     return wanted_ && !is_due() && wall - std::min(wall, last_trigger_) >= patience_;
   }
 
  private:
+  bool release_if_passed() {
+    if (start_ != LogicalStart::kInTheLab || !wanted_ || newest_trigger_ <= *wanted_) return false;
+    released_ = newest_trigger_;
+    return true;
+  }
+
   Nanoseconds patience_;
-  Nanoseconds last_trigger_;  ///< wall
+  LogicalStart start_;
+  Nanoseconds last_trigger_;                  ///< wall
+  Nanoseconds newest_trigger_{};              ///< the largest time; 0: none
+  std::optional<Nanoseconds> listens_until_;  ///< wall
   std::optional<Nanoseconds> wanted_;
   std::optional<Nanoseconds> released_;
   Nanoseconds next_announcement_{};  ///< wall
@@ -138,8 +169,16 @@ inline constexpr RunTime kLogicalTime{
     },
     .lease = 10 * kNanosecondsPerSecond};
 
-[[nodiscard]] constexpr RunTime run_time(bool is_logical) {
-  return is_logical ? kLogicalTime : kRealTime;
+inline constexpr RunTime kLogicalTimeInTheLab{
+    .make_pacing = [](Nanoseconds startup_timeout, Nanoseconds since) -> std::unique_ptr<Pacing> {
+      return std::make_unique<LogicalPacing>(LogicalPacing::patience_for(startup_timeout), since,
+                                             LogicalStart::kInTheLab);
+    },
+    .lease = kLogicalTime.lease};
+
+[[nodiscard]] constexpr RunTime run_time(bool is_logical, bool is_in_the_lab = false) {
+  if (!is_logical) return kRealTime;
+  return is_in_the_lab ? kLogicalTimeInTheLab : kLogicalTime;
 }
 
 }  // namespace hlc::machine

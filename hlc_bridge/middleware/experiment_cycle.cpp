@@ -21,6 +21,7 @@ void ExperimentCycle::take(const ReadyStatus& status) {
 void ExperimentCycle::take(const SystemTrigger& trigger) {
   const bool is_stop = trigger.next_start == kStopSymbol;
   is_between_ = keep_running_ && is_stop;
+  if (!is_triggered_ && !is_stop) starts_at_ = trigger.next_start;
   is_triggered_ = !is_between_;
   is_stopped_ = is_stopped_ || (is_stop && !keep_running_);
   if (is_between_) {

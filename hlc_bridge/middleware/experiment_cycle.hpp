@@ -55,6 +55,10 @@ class ExperimentCycle {
 
   /// A trigger was received in this experiment.
   [[nodiscard]] bool is_triggered() const { return is_triggered_; }
+  /// A list of this time belongs to the experiment: its first trigger's time has passed.
+  [[nodiscard]] bool is_running_at(Nanoseconds t_now) const {
+    return is_triggered_ && t_now >= starts_at_;
+  }
   /// The stop symbol was received, and the process ends.
   [[nodiscard]] bool is_stopped() const { return is_stopped_; }
   /// Commands are not forwarded to vehicles.
@@ -72,7 +76,8 @@ class ExperimentCycle {
   std::vector<GoalState> goals_;
   std::optional<machine::WaitNotice> notice_;
   bool is_triggered_{};
-  bool is_between_{};  ///< the stop symbol was received, and no trigger since
+  Nanoseconds starts_at_{};  ///< of the first trigger
+  bool is_between_{};        ///< the stop symbol was received, and no trigger since
   bool is_stopped_{};
 };
 

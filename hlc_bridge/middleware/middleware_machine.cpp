@@ -75,6 +75,14 @@ std::optional<int> MiddlewareMachine::exit_code() const {
 
 // --- events -------------------------------------------------------------------------------------
 
+/// Our controllers answer every list, from the first one on.
+void MiddlewareMachine::take(MiddlewarePeers& peers, const Instant& /*now*/) {
+  for (const std::uint8_t id : peers.own_controllers) {
+    if (!peers_.own_controllers.contains(id)) due_answers_.received(id);
+  }
+  peers_ = std::move(peers);
+}
+
 void MiddlewareMachine::take(const Parameter& parameter, const Instant& /*now*/) {
   if (cycle_.has_begun()) {
     cycle_.take(parameter);
@@ -187,7 +195,9 @@ void MiddlewareMachine::tick(const Instant& now) {
   if (phase_ == Phase::kIdle) {
     if (const std::optional<Nanoseconds> due = ticks_->take(now)) begin_tick(*due, now);
   }
-  if (phase_ == Phase::kStates && states_are_in(now)) publish_list(now);
+  if (phase_ == Phase::kStates && !awaits_controllers(now) && states_are_in(now)) {
+    publish_list(now);
+  }
   if (phase_ == Phase::kAnswers && answers_are_in(now)) phase_ = Phase::kIdle;
 }
 
@@ -195,7 +205,7 @@ void MiddlewareMachine::begin_tick(Nanoseconds t_now, const Instant& now) {
   t_now_ = t_now;
   phase_ = Phase::kStates;
   due_states_.begin(now.wall);
-  if (!waits() && cycle_.is_triggered() && lists_.newest_list() != 0) {
+  if (!waits() && lists_.newest_list() != 0 && cycle_.is_running_at(lists_.newest_list())) {
     forwarder_.count_missed_answers(lists_.newest_list(), actions_);
   }
   cycle_.prepare_next(now.wall, actions_);
@@ -207,6 +217,15 @@ void MiddlewareMachine::publish_list(const Instant& now) {
   if (settings_.rules.announces_readiness) cycle_.announce_readiness(now.wall, actions_);
   phase_ = Phase::kAnswers;
   due_answers_.begin(now.wall);
+}
+
+bool MiddlewareMachine::awaits_controllers(const Instant& now) {
+  const bool is_first = lists_.newest_list() == 0;
+  const bool must_wait = waits() && !settings_.rules.pacing.connects_before_start && is_first;
+  if (!must_wait || peers_.controllers_are_matched) return false;
+  if (now.wall < due_states_.deadline()) return true;
+  actions_.emplace_back(machine::warning("no controller is matched; time passes without one"));
+  return false;
 }
 
 bool MiddlewareMachine::states_are_in(const Instant& now) {

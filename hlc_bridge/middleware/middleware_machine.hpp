@@ -28,7 +28,8 @@ namespace hlc::middleware {
 ///        ▼                                 ▼ lab control lost: 4
 ///     finished ◄──controllers gone, or kLeaveTime── leaving
 ///
-/// A tick with patience waits, before the list, for the state of every active vehicle that must be
+/// The first tick with patience waits for the controllers, if they were not awaited before. A tick
+/// with patience waits, before the list, for the state of every active vehicle that must be
 /// in it, and, after the list, for every controller's answer: only then the next tick is requested.
 /// Lost peers are not awaited, nor peers that have been silent for the patience, until their next
 /// message. Without patience lists are published from the first period on, whatever the presence;
@@ -62,7 +63,7 @@ class MiddlewareMachine {
   };
 
   void take(machine::StopSignal /*signal*/, const Instant& /*now*/) { ending_.is_asked = true; }
-  void take(MiddlewarePeers& peers, const Instant& /*now*/) { peers_ = std::move(peers); }
+  void take(MiddlewarePeers& peers, const Instant& now);
   void take(const Parameter& parameter, const Instant& now);
   void take(const SystemTrigger& trigger, const Instant& now);
   void take(GoalState& goal, const Instant& now);
@@ -80,6 +81,7 @@ class MiddlewareMachine {
   void begin_tick(Nanoseconds t_now, const Instant& now);
   void publish_list(const Instant& now);
   [[nodiscard]] bool waits() const { return settings_.rules.pacing.patience > 0; }
+  [[nodiscard]] bool awaits_controllers(const Instant& now);
   [[nodiscard]] bool states_are_in(const Instant& now);
   [[nodiscard]] bool answers_are_in(const Instant& now);
 

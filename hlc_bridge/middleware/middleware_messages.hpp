@@ -33,6 +33,7 @@ struct MiddlewarePeers {
   bool lab_control_is_lost{};      ///< was present and is no longer
   bool controllers_are_matched{};  ///< receive lists and triggers, and send commands and readiness
   bool commands_are_sent{};        ///< at least one controller is matched that sends commands
+  std::set<std::uint8_t> own_controllers;      ///< by vehicle: present, and ours (node_names.hpp)
   std::set<std::uint8_t> lost_controllers;     ///< by vehicle: were present and are no longer
   std::set<std::uint8_t> state_publishers;     ///< vehicles whose states would be received
   std::set<std::uint8_t> command_subscribers;  ///< vehicles that would receive commands

@@ -18,15 +18,20 @@ struct MiddlewareRules {
   bool forwards_every_trigger{};
   /// Lists hold the camera system's observations.
   bool lists_observations{};
-  /// A tick waits for the answer of a controller that has not answered before.
+  /// A tick waits for the answer of a controller that has not answered before, even of one that is
+  /// not ours.
   bool awaits_first_answers{};
 };
 
 /// @param beside_lab_programs  controllers and vehicles may be the lab's own: they expect all
 /// triggers, those of the vehicles' ticks too, and do not answer before the start. Ours need 50
-/// triggers a second less, which would slow down a run considerably.
+/// triggers a second less, which would slow down a run considerably. And the operator starts the
+/// run: the first tick is requested at once, and waits for the controllers, since time would pass
+/// without a middleware that had not requested any.
 [[nodiscard]] constexpr MiddlewareRules logical_middleware_rules(bool beside_lab_programs) {
-  return {.pacing = machine::logical_rules(),
+  machine::PacingRules pacing = machine::logical_rules();
+  pacing.connects_before_start = !beside_lab_programs;
+  return {.pacing = pacing,
           .announces_readiness = false,
           .forwards_every_trigger = beside_lab_programs,
           .lists_observations = beside_lab_programs,

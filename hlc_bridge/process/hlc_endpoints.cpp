@@ -15,7 +15,8 @@ auto wakes(Shell<high_level_controller::HlcMachine>& shell) {
 
 }  // namespace
 
-HlcWriters::HlcWriters(HlcDomains& domains, const std::function<void()>& on_presence)
+HlcWriters::HlcWriters(HlcDomains& domains, const std::function<void()>& on_presence,
+                       bool asks_lab_control)
     : traffic(domains.controllers, dds::topics::traffic(), on_presence),
       prediction(domains.controllers, dds::topics::prediction(), on_presence),
       outcome(domains.controllers, dds::topics::outcome(), on_presence),
@@ -24,7 +25,9 @@ HlcWriters::HlcWriters(HlcDomains& domains, const std::function<void()>& on_pres
       ready(domains.local, dds::topics::ready_status()),
       drawing(domains.lab, dds::topics::visualization()),
       stop_request(domains.lab, dds::topics::stop_request(), on_presence),
-      automaton_answer(domains.controllers, dds::topics::automaton_answer()) {}
+      automaton_answer(domains.controllers, dds::topics::automaton_answer()) {
+  if (asks_lab_control) parameter_request.emplace(domains.lab, dds::topics::parameter_request());
+}
 
 std::set<std::string> HlcWriters::receivers() const {
   std::set<std::string> names = traffic.matched_names();
@@ -37,7 +40,7 @@ std::set<std::string> HlcWriters::receivers() const {
 }
 
 HlcReaders::HlcReaders(HlcDomains& domains, Shell<high_level_controller::HlcMachine>& shell,
-                       bool stops_on_lab)
+                       const high_level_controller::HlcRules& rules)
     : traffic(domains.controllers, dds::topics::traffic(), posts_to(shell)),
       prediction(domains.controllers, dds::topics::prediction(), posts_to(shell)),
       outcome(domains.controllers, dds::topics::outcome(), posts_to(shell)),
@@ -49,7 +52,10 @@ HlcReaders::HlcReaders(HlcDomains& domains, Shell<high_level_controller::HlcMach
                 shell.post(message);
               }),
       list(domains.local, dds::topics::vehicle_state_list(), wakes(shell)) {
-  if (!stops_on_lab) return;
+  if (rules.asks_lab_control) {
+    parameter.emplace(domains.lab, dds::topics::parameter(), wakes(shell));
+  }
+  if (!rules.stops_on_lab_domain) return;
   lab_stop.emplace(domains.lab, dds::topics::system_trigger(),
                    [&shell](const SystemTrigger& message) {
                      if (message.next_start == kStopSymbol) shell.post_urgent(message);

@@ -20,8 +20,9 @@ struct HlcDomains {
 
 /// The publications of a controller.
 struct HlcWriters {
-  /// @param on_presence  called after a change of the matches
-  HlcWriters(HlcDomains& domains, const std::function<void()>& on_presence);
+  /// @param on_presence       called after a change of the matches
+  /// @param asks_lab_control  for parameters
+  HlcWriters(HlcDomains& domains, const std::function<void()>& on_presence, bool asks_lab_control);
 
   /// Controllers that receive all messages of this one for controllers.
   [[nodiscard]] std::set<std::string> receivers() const;
@@ -35,15 +36,16 @@ struct HlcWriters {
   dds::Writer<Visualization> drawing;
   dds::Writer<StopRequest> stop_request;
   dds::Writer<AutomatonAnswer> automaton_answer;
+  std::optional<dds::Writer<ParameterRequest>> parameter_request;
 };
 
 /// The subscriptions of a controller, posted to its shell. Messages that require an answer or an
 /// action are urgent; a middleware may forward the trigger of every tick, of which only the stop is
 /// urgent.
 struct HlcReaders {
-  /// @param stops_on_lab  the stop symbol of the lab domain counts, too
+  /// @param rules  stops_on_lab_domain, asks_lab_control: what is read on the lab domain
   HlcReaders(HlcDomains& domains, Shell<high_level_controller::HlcMachine>& shell,
-             bool stops_on_lab);
+             const high_level_controller::HlcRules& rules);
 
   dds::Reader<coordination::Traffic> traffic;
   dds::Reader<coordination::Prediction> prediction;
@@ -52,6 +54,7 @@ struct HlcReaders {
   dds::Reader<RunState> run_state;
   dds::Reader<SystemTrigger> trigger;
   std::optional<dds::Reader<SystemTrigger>> lab_stop;
+  std::optional<dds::Reader<Parameter>> parameter;
   dds::Reader<VehicleStateList> list;
 };
 

@@ -49,7 +49,7 @@ HlcProcess::HlcProcess(HlcProcessOptions options,
                .controllers = dds::Participant(
                    on_domain(options_.domains.controller, dds::DomainRole::kController),
                    on_presence(shell_))},
-      writers_(domains_, on_presence(shell_)),
+      writers_(domains_, on_presence(shell_), options_.rules.asks_lab_control),
       lab_log_(domains_.lab, options_.node_id),
       preparation_(shell_.machine().request_base(),
                    {shell_.machine().controller().subgraph().shared_automaton(),
@@ -57,7 +57,7 @@ HlcProcess::HlcProcess(HlcProcessOptions options,
                    [this](high_level_controller::PreparedRequest prepared) {
                      shell_.post_urgent(std::move(prepared));
                    }),
-      readers_(domains_, shell_, options_.rules.stops_on_lab_domain) {}
+      readers_(domains_, shell_, options_.rules) {}
 
 dds::ParticipantOptions HlcProcess::on_domain(std::optional<int> domain, dds::DomainRole role) {
   return {

@@ -102,6 +102,7 @@ class HlcProcess {
   void perform(const ReportRecord& message) { writers_.report.write(message); }
   void perform(const ReadyStatus& message) { writers_.ready.write(message); }
   void perform(const StopRequest& message) { writers_.stop_request.write(message); }
+  void perform(const ParameterRequest& message) { writers_.parameter_request->write(message); }
   void perform(const AutomatonAnswer& message) { writers_.automaton_answer.write(message); }
   void perform(const machine::LogLine& line) { log(options_.node_id, line); }
   void perform(const high_level_controller::PrepareRequest& action) {

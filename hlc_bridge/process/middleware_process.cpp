@@ -189,6 +189,7 @@ middleware::MiddlewarePeers MiddlewareProcess::presence() const {
   }
   for (const auto& [id, vehicle] : vehicles_) {
     if (vehicle->trajectory.matched() > 0) peers.command_subscribers.insert(id);
+    if (local_.is_alive(controller_name(id))) peers.own_controllers.insert(id);
     if (local_.is_lost(controller_name(id))) peers.lost_controllers.insert(id);
   }
   return peers;

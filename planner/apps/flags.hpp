@@ -118,6 +118,11 @@ inline void check_types(CLI::App& app) {
   }
 }
 
+inline int refuse_unknown(const CLI::App& app, const CLI::ExtrasError& error) {
+  complain(app.get_name(), std::string(error.what()) + ", must be a flag that --help lists");
+  return 2;
+}
+
 /// Nothing if the flags are good; otherwise the exit code: 0 after the help or the version, 2 after
 /// one line about the bad flag, `failed`, as in exit_code_of, after one line about a help that
 /// could not be printed.
@@ -139,8 +144,7 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int 
       return failed;
     }
   } catch (const CLI::ExtrasError& error) {
-    complain(app.get_name(), std::string(error.what()) + ", must be a flag that --help lists");
-    return 2;
+    return refuse_unknown(app, error);
   } catch (const CLI::ArgumentMismatch& error) {
     complain(app.get_name(), std::string(error.what()) + ", must have a value");
     return 2;

@@ -65,7 +65,9 @@ int main(int argc, char** argv) {
   app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle (the next two may follow)");
   app.add_flag("--print_steps", steps, "print only the number of steps");
   app.add_flag("--print_policy", policy, "print only the name of the policy in force, or none");
-  hlc::apps::declare_output(app, plot, "draw lanes, reference paths and cars at the start (SVG)");
+  hlc::apps::declare_output(app, plot,
+                            "draw lanes, reference paths and cars at the start (SVG); with "
+                            "--starts also their poses: a sheet to place them by");
   app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
   const auto run = [&] {
@@ -75,7 +77,8 @@ int main(int argc, char** argv) {
     const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
     hlc::apps::check_output_files({plot}, hlc::scenario::files_of(scenario));
     if (plot.file) {
-      hlc::write_file(*plot.file, hlc::plot::scenario_plot(scenario, hlc::plot::map_of(scenario)));
+      hlc::write_file(*plot.file,
+                      hlc::plot::scenario_plot(scenario, hlc::plot::map_of(scenario), starts));
     }
     if (starts) print_starts(scenario);
     if (steps) std::printf("%zu\n", scenario.steps);

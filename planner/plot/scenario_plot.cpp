@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 
 #include "planner/geometry/footprint.hpp"
 
@@ -20,6 +21,13 @@ void add_direction(const road::ReferencePath& path, double from_m, PlotPanel& pa
   for (double s_m = from_m; s_m + kArrow_m < path.length_m(); s_m += kBetweenArrows_m) {
     panel.arrows.push_back({.from = path.at(s_m), .to = path.at(s_m + kArrow_m)});
   }
+}
+
+std::string pose_text(const scenario::Scenario& scenario,
+                      const scenario::ScenarioVehicle& vehicle) {
+  const Pose pose = scenario::measured_start(scenario, vehicle);
+  return fmt::format(", x {:.2f} m, y {:.2f} m, yaw {:.2f} rad ({:.0f} deg)", pose.x_m, pose.y_m,
+                     pose.heading_rad, pose.heading_rad * 180.0 / std::numbers::pi);
 }
 
 }  // namespace
@@ -55,7 +63,7 @@ std::string car_colour(const scenario::Scenario& scenario, std::size_t vehicle) 
 }
 
 std::string scenario_plot(const scenario::Scenario& scenario,
-                          const std::optional<road::LaneletMap>& map) {
+                          const std::optional<road::LaneletMap>& map, bool with_poses) {
   PlotPanel panel{.x_label = "x [m]", .y_label = "y [m]", .equal_scale = true};
   if (map) add_lanes(*map, panel);
   const std::size_t count = scenario.vehicles.size();
@@ -66,7 +74,8 @@ std::string scenario_plot(const scenario::Scenario& scenario,
     line.width_px = kThinnest_px;
     // The first paths are the widest and lie below; a few widths suffice.
     line.width_px += kThicker_px * static_cast<double>(std::min<std::size_t>(count - 1 - i, 3));
-    panel.legend.push_back({.text = fmt::format("vehicle {}: {}", vehicle.id.value, vehicle.name),
+    panel.legend.push_back({.text = fmt::format("vehicle {}: {}", vehicle.id.value, vehicle.name) +
+                                    (with_poses ? pose_text(scenario, vehicle) : ""),
                             .colour = line.colour,
                             .radius_px = 0.0});
     add_direction(vehicle.path,

@@ -24,8 +24,10 @@ void add_lanes(const road::LaneletMap& map, PlotPanel& panel);
 /// The paper's Fig. 3, as SVG: lanes, the vehicles' reference paths with their direction,
 /// footprints (without margin) and ids at the start. Paths that share a lane are drawn with widths
 /// that differ.
-/// @param map  absent: open ground
+/// @param map         absent: open ground
+/// @param with_poses  the legend holds the vehicles' poses (yaw): a sheet to place them by
 [[nodiscard]] std::string scenario_plot(const scenario::Scenario& scenario,
-                                        const std::optional<road::LaneletMap>& map);
+                                        const std::optional<road::LaneletMap>& map,
+                                        bool with_poses = false);
 
 }  // namespace hlc::plot

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -10,14 +11,32 @@
 namespace hlc::apps {
 namespace {
 
-constexpr int kColumns = 6;
-
-Pose grid_pose(std::uint8_t vehicle_id) {
-  const int index = vehicle_id - 1;
-  return {.x_m = 0.5 + 0.7 * (index % kColumns),
-          .y_m = 0.5 + 1.0 * (index / kColumns),
-          .heading_rad = 0.0};
-}
+/// The lab's, of vehicles 1 ... kLastDefaultStart.
+constexpr std::array<Pose, kLastDefaultStart> kDefaultStarts{{
+    {.x_m = 3.1575, .y_m = 3.8888, .heading_rad = -0.0502},
+    {.x_m = 3.8795, .y_m = 3.7217, .heading_rad = -0.5016},
+    {.x_m = 4.3584, .y_m = 2.9549, .heading_rad = -1.4108},
+    {.x_m = 4.3950, .y_m = 2.0000, .heading_rad = -1.5708},
+    {.x_m = 4.3584, .y_m = 1.0451, .heading_rad = -1.7307},
+    {.x_m = 3.8795, .y_m = 0.2783, .heading_rad = -2.6400},
+    {.x_m = 3.1575, .y_m = 0.1112, .heading_rad = -3.0914},
+    {.x_m = 2.2500, .y_m = 0.1050, .heading_rad = 3.1416},
+    {.x_m = 1.3425, .y_m = 0.1112, .heading_rad = 3.0914},
+    {.x_m = 0.6205, .y_m = 0.2783, .heading_rad = 2.6400},
+    {.x_m = 0.1416, .y_m = 1.0451, .heading_rad = 1.7307},
+    {.x_m = 0.1050, .y_m = 2.0000, .heading_rad = 1.5708},
+    {.x_m = 0.1416, .y_m = 2.9549, .heading_rad = 1.4108},
+    {.x_m = 0.6205, .y_m = 3.7217, .heading_rad = 0.5016},
+    {.x_m = 1.3425, .y_m = 3.8888, .heading_rad = 0.0502},
+    {.x_m = 3.0500, .y_m = 2.2250, .heading_rad = 3.1416},
+    {.x_m = 3.0500, .y_m = 1.7750, .heading_rad = 0.0000},
+    {.x_m = 2.4750, .y_m = 1.2000, .heading_rad = 1.5708},
+    {.x_m = 2.0250, .y_m = 1.2000, .heading_rad = -1.5708},
+    {.x_m = 1.4500, .y_m = 1.7750, .heading_rad = 0.0000},
+    {.x_m = 1.4500, .y_m = 2.2250, .heading_rad = 3.1416},
+    {.x_m = 2.0250, .y_m = 2.8000, .heading_rad = -1.5708},
+    {.x_m = 2.4750, .y_m = 2.8000, .heading_rad = 1.5708},
+}};
 
 }  // namespace
 
@@ -29,7 +48,7 @@ Pose start_pose(std::uint8_t vehicle_id, const std::vector<double>& given) {
           "can do without)",
           vehicle_id, kLastDefaultStart));
     }
-    return grid_pose(vehicle_id);
+    return kDefaultStarts.at(vehicle_id - 1U);
   }
   const bool is_finite =
       std::ranges::all_of(given, [](double value) { return std::isfinite(value); });

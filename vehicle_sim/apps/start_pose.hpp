@@ -12,8 +12,8 @@ inline constexpr std::uint8_t kLastDefaultStart = 23;
 
 /// Start pose of a simulated vehicle.
 ///
-/// Without `given` vehicle id stands on a grid of six columns and four rows, 0.7 m and 1.0 m apart,
-/// first at (0.5, 0.5), along x: inside the lab (4.5 m x 4.0 m) and clear of each other.
+/// Without `given` vehicle id stands where the lab's simulated vehicle of that id does: 1 to 15 one
+/// behind the other on the outer ring, the others on the lanes of the middle.
 /// @param given  empty, or x [m], y [m], yaw [rad] as on the command line
 /// @throws std::invalid_argument unless `given` is empty or three finite numbers, and if it is
 /// empty for an id above `kLastDefaultStart`

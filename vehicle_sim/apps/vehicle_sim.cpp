@@ -120,7 +120,8 @@ hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
           .transport = hlc::dds::transport_from_name(flags.network.transport),
           .lab_domain = flags.network.dds_domain,
           .discovery_server = flags.network.discovery_server(),
-          .time = hlc::machine::run_time(flags.network.simulated_time),
+          .time = hlc::machine::run_time(flags.network.simulated_time,
+                                         flags.network.transport == "lab"),
           .rules = flags.network.simulated_time ? hlc::machine::logical_rules()
                                                 : hlc::machine::real_rules(grace),
           .keep_running = flags.keep_running,
@@ -139,7 +140,7 @@ int main(int argc, char** argv) {
                "vehicle_sim"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) return *code;
   return hlc::apps::run_program(
       "vehicle_sim", signals,
       [&] { return std::make_shared<hlc::apps::VehicleProcess>(process_options(flags)); },

@@ -96,6 +96,7 @@ class ControllerHost : public Host {
   }
   void perform(const ReadyStatus& status) const { publish(kReady, status); }
   void perform(const StopRequest& request) const { publish(kStopRequests, request); }
+  void perform(const ParameterRequest& /*request*/) const {}
   void perform(const AutomatonAnswer& /*answer*/) const {}
   void perform(const high_level_controller::PrepareRequest& /*request*/) const {}
   void perform(const high_level_controller::DrawStep& /*step*/) const {}

@@ -60,12 +60,12 @@ middleware::MiddlewareMachine middleware(std::uint8_t id, const LabSettings& set
 
 high_level_controller::HlcMachine controller(const scenario::Scenario& scenario, std::uint8_t id,
                                              const LabSettings& settings) {
-  const bool keeps_commands = settings.transport == Transport::kLoopback;
+  const bool is_in_the_lab = settings.transport == Transport::kLab;
   high_level_controller::HlcRules rules =
       settings.is_logical
-          ? high_level_controller::rules_in_logical_time(keeps_commands)
+          ? high_level_controller::rules_in_logical_time(is_in_the_lab)
           : high_level_controller::rules_in_real_time(
-                keeps_commands, high_level_controller::StepDeadlines{}, kStartupTimeout);
+                is_in_the_lab, high_level_controller::StepDeadlines{}, kStartupTimeout);
   rules.warms_up = false;
   return {{.rules = rules,
            .startup_timeout = kStartupTimeout,

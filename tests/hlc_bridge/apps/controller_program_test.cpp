@@ -81,15 +81,12 @@ class TwoControllers : public testing::Test {
     });
   }
   [[nodiscard]] bool are_ready() {
-    return write_until([this] {
-      const auto ready = ready_.wait_for(0);
-      return std::ranges::count(ready, controller_ready_id(1), &ReadyStatus::source_id) > 0 &&
-             std::ranges::count(ready, controller_ready_id(2), &ReadyStatus::source_id) > 0;
-    });
+    return write_until([this] { return num_ready(1) > 0 && num_ready(2) > 0; });
   }
-  [[nodiscard]] std::size_t commands_to(std::uint8_t vehicle) const {
-    return static_cast<std::size_t>(
-        std::ranges::count(commands_.wait_for(0), vehicle, &TrajectoryCommand::vehicle_id));
+  /// How often the vehicle's controller has published that it is ready, as it does until the start.
+  [[nodiscard]] std::size_t num_ready(std::uint8_t vehicle) const {
+    return static_cast<std::size_t>(std::ranges::count(
+        ready_.wait_for(0), controller_ready_id(vehicle), &ReadyStatus::source_id));
   }
 
   const scenario::Scenario scenario_ = scenario::read_scenario({.file = kScenario});
@@ -97,7 +94,7 @@ class TwoControllers : public testing::Test {
   DomainReservation domains_{2};
   dds::Participant participant_;
   dds::Writer<VehicleStateList> lists_;
-  dds::Mailbox<TrajectoryCommand> commands_;
+  dds::Mailbox<TrajectoryCommand> commands_;  ///< without a reader of commands none is ready
   dds::Mailbox<ReadyStatus> ready_;
   ChildProcess program_;
 };
@@ -108,8 +105,8 @@ TEST_F(TwoControllers, AreReadyTogetherAndWhatHappensToOneHappensToNoOther) {
   ASSERT_EQ(children.size(), 2U);
   kill(children[0], SIGKILL);
   ASSERT_TRUE(eventually(60s, [&] { return !runs(children[0]); }));
-  const std::size_t before = commands_to(2);
-  EXPECT_TRUE(write_until([&] { return commands_to(2) > before + 3; }));
+  const std::size_t before = num_ready(2);
+  EXPECT_TRUE(write_until([&] { return num_ready(2) > before + 3; }));
   program_.send(SIGTERM);
   EXPECT_EQ(program_.wait_for(60s), kExitDied) << "one of them was killed";
   EXPECT_TRUE(eventually(60s, [&] { return !runs(children[1]); }));
@@ -180,7 +177,8 @@ TEST(ControllerProgram, SaysWhatAFlagMayBe) {
       {"--simulated_time=perhaps", "--simulated_time: perhaps, must be true or false"},
       {"--core=first", "--core: first, must be in 0 ... 1023"},
       {"--dds_domain=400", "--dds_domain: 400, must be in 0 ... 232"},
-      {"--colour=red", "not expected: --colour=red, must be a flag that --help lists"}};
+      {"--transport=loopback --colour=red",
+       "not expected: --colour=red, must be a flag that --help lists"}};
   for (const auto& [flag, line] : lines) {
     const Outcome outcome = run_program("high_level_controller --vehicle_ids=1 " + flag);
     EXPECT_EQ(outcome.exit_code, kExitBadInput) << flag;

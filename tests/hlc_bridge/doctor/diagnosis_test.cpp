@@ -12,7 +12,7 @@ constexpr Nanoseconds kNow = 1'700'000'000'000'000'000;
 /// Three seconds of vehicle 1 alone, with all that a run needs.
 Received good(std::int64_t age_ns = 2'000'000) {
   Received received;
-  received.listened_s = std::chrono::seconds{3};
+  received.ended_at = kNow + 3'000'000'000;
   received.lab_control_answers = true;
   received.period_ms = 200;
   received.controllers = {"high_level_controller_1"};
@@ -53,7 +53,6 @@ TEST(Diagnosis, NamesWhoDoesNotAnswerAndSaysWhatToDo) {
   EXPECT_NE(findings[0].advice, "");
 
   Received silent;
-  silent.listened_s = std::chrono::seconds{3};
   silent.listened_to_middleware = true;
   EXPECT_EQ(bad_ones({1, 2}, silent).size(), 4U) << "lab control, two vehicles, middleware";
 }
@@ -97,10 +96,50 @@ TEST(Diagnosis, DoesNotCompareLogicalTimeWithAClock) {
 
 TEST(Diagnosis, TellsOfStatesThatAreLost) {
   Received received = good();
-  received.listened_s = std::chrono::seconds{10};
+  received.ended_at = kNow + 10'000'000'000;
   const auto findings = bad_ones({1}, received);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].what.find("vehicle 1: 15.0 states per second instead of 50"), 0U);
+}
+
+TEST(Diagnosis, CountsStatesFromTheFirstOneOn) {
+  Received received = good();
+  ASSERT_EQ(received.vehicles.at(1).first_at, kNow);
+  const std::vector<Finding> findings = diagnose({1}, received);
+  EXPECT_EQ(findings[1].what.find("vehicle 1: 50.0 states per second"), 0U) << findings[1].what;
+}
+
+TEST(Diagnosis, ComparesTheListsStampsWithTheClock) {
+  Received received = good();
+  received.listened_to_middleware = true;
+  note({.t_now = kNow}, kNow + 300'000, received);
+  note({.t_now = kNow}, kNow + 900'000'000, received);
+  EXPECT_TRUE(bad_ones({1}, received).empty()) << "one late list is no clock that differs";
+  note({.t_now = kNow}, kNow - 40'000'000, received);
+  ASSERT_EQ(bad_ones({1}, received).size(), 1U);
+  EXPECT_EQ(bad_ones({1}, received)[0].what, "middleware: 3 state lists, at least -40.0 ms old");
+
+  Received logical = good();
+  logical.listened_to_middleware = true;
+  note({.t_now = 200'000'001}, kNow, logical);
+  EXPECT_TRUE(bad_ones({1}, logical).empty());
+}
+
+TEST(Diagnosis, IsCompleteOnceEverythingAndEveryVehicleLongEnoughWasReceived) {
+  constexpr Nanoseconds kSpan = 3'000'000'000;
+  Received received = good();
+  EXPECT_FALSE(is_complete({1}, received, kNow + kSpan - 1, kSpan));
+  EXPECT_TRUE(is_complete({1}, received, kNow + kSpan, kSpan));
+  EXPECT_FALSE(is_complete({1, 2}, received, kNow + kSpan, kSpan)) << "no state of 2";
+  received.listened_to_middleware = true;
+  EXPECT_FALSE(is_complete({1}, received, kNow + kSpan, kSpan));
+  note({.t_now = kNow}, kNow, received);
+  EXPECT_TRUE(is_complete({1}, received, kNow + kSpan, kSpan));
+  received.controllers.clear();
+  EXPECT_FALSE(is_complete({1}, received, kNow + kSpan, kSpan));
+  received = good();
+  received.lab_control_answers = false;
+  EXPECT_FALSE(is_complete({1}, received, kNow + kSpan, kSpan));
 }
 
 TEST(Diagnosis, NotesAVehicleThatNobodyAskedFor) {

@@ -17,7 +17,7 @@ void write(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
 }
 
-TEST(SharedMemory, AFileIsUsedIfAProcessHasItMapped) {
+TEST(SharedMemory, AFileIsUsedByTheProcessesThatHaveItMapped) {
   const test::TemporaryFolder folder;
   const fs::path shm = folder / "shm";
   const fs::path proc = folder / "proc";
@@ -27,18 +27,21 @@ TEST(SharedMemory, AFileIsUsedIfAProcessHasItMapped) {
   }
   write(proc / "17" / "maps",
         "7f00-7f10 rw-s 00000000 00:19 3 " + (shm / "fastrtps_1234").string() + "\n");
+  write(proc / "17" / "comm", "middleware\n");
   write(proc / "self" / "maps",
         "7f00-7f10 rw-s 00000000 00:19 3 " + (shm / "fastrtps_port7411").string() + "\n");
 
   const std::vector<SharedMemoryFile> files = shared_memory_files(shm, proc);
   ASSERT_EQ(files.size(), 5U) << "all but that of other software";
   for (const SharedMemoryFile& file : files) {
-    EXPECT_EQ(file.is_used, file.name.starts_with("fastrtps_1234")) << file.name;
+    EXPECT_EQ(!file.users.empty(), file.name.starts_with("fastrtps_1234")) << file.name;
     EXPECT_EQ(file.bytes, 8U);
   }
   const Finding finding = leftovers(files);
   EXPECT_EQ(finding.verdict, Verdict::kNote);
   EXPECT_EQ(finding.what.find("shared memory: 3 unused files in /dev/shm"), 0U);
+  EXPECT_NE(finding.what.find("; 2 files in use by middleware (17)"), std::string::npos)
+      << finding.what;
 }
 
 TEST(SharedMemory, NothingIsLeftOverWhereNothingIs) {

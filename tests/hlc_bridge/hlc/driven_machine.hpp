@@ -23,10 +23,11 @@ inline constexpr Nanoseconds kSecond = kNanosecondsPerSecond;
 inline constexpr Nanoseconds kMillisecond = kNanosecondsPerMillisecond;
 inline constexpr std::uint64_t kFirstStep = 1000;  ///< in real time; logical time begins at 0
 
-inline HlcRules real_time() { return rules_in_real_time(true, {}, 30 * kSecond); }
-inline HlcRules logical_time() { return rules_in_logical_time(true); }
+inline HlcRules real_time() { return rules_in_real_time(false, {}, 30 * kSecond); }
+inline HlcRules logical_time() { return rules_in_logical_time(false); }
+inline HlcRules logical_time_in_the_lab() { return rules_in_logical_time(true); }
 /// The lab's middleware keeps one command.
-inline HlcRules real_time_in_the_lab() { return rules_in_real_time(false, {}, 30 * kSecond); }
+inline HlcRules real_time_in_the_lab() { return rules_in_real_time(true, {}, 30 * kSecond); }
 
 /// Middleware, lab control and these vehicles' controllers are there and receive everything.
 inline HlcPeers peers(const std::set<std::uint8_t>& others = {}) {

@@ -11,7 +11,12 @@ namespace hlc::high_level_controller::hlc_machine_life_cycle_test {
 namespace {
 
 using namespace driven_machine;
+using controller::east_bound::following;
 using controller::east_bound::seen;
+using machine::LabControlWatch;
+using testing::Each;
+using testing::ElementsAre;
+using testing::Field;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -67,10 +72,13 @@ TEST(HlcMachineReady, SaysThatItsVehicleFitsNoRouteAndIsNotReadyUntilItDoes) {
     one.next_list({{.vehicle = {1}, .pose = compose(start, {0.0, 0.0, 1.5})}});
   }
   EXPECT_TRUE(one.has_logged("fits no route: nearest is red"));
-  EXPECT_THAT(one.take<TrajectoryCommand>(), testing::Not(IsEmpty())) << "to stand";
+  one.on(SystemTrigger{.next_start = one.now().run});
+  one.next_list({{.vehicle = {1}, .pose = compose(start, {0.0, 0.0, 1.5})}});
+  EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty()) << "the operator moves it";
   EXPECT_THAT(one.take<ReadyStatus>(), IsEmpty());
-  for (int i = 0; i < 10; ++i) one.next_list({{.vehicle = {1}, .pose = start}});
-  EXPECT_THAT(one.take<ReadyStatus>(), testing::Not(IsEmpty()));
+  one.next_list({{.vehicle = {1}, .pose = start}});
+  one.next_list({{.vehicle = {1}, .pose = start}});
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
 }
 
 TEST(HlcMachineReady, LeavesAfterTheStartupTimeoutAndSaysWhoIsMissing) {
@@ -105,6 +113,92 @@ TEST(HlcMachineReady, InLogicalTimeTheFirstListIsAnsweredWhenEverybodyIsThere) {
   alone.next_list(both);
   alone.pass(31 * kSecond);
   EXPECT_EQ(alone.exit_code(), kExitMissing);
+}
+
+// --- in the lab ----------------------------------------------------------------------------------
+
+TEST(HlcMachineInTheLab, WaitsForItsFirstListWithoutALimitAndLogsItEveryThirtySeconds) {
+  for (const HlcRules& rules : {real_time_in_the_lab(), logical_time_in_the_lab()}) {
+    DrivenMachine one(rules);
+    one.on(peers());
+    one.pass(60 * kSecond);
+    one.forget();
+    one.pass(600 * kSecond);
+    EXPECT_FALSE(one.exit_code());
+    const std::vector<machine::LogLine> lines = one.take<machine::LogLine>();
+    EXPECT_THAT(lines, SizeIs(20));
+    EXPECT_THAT(lines, Each(Field(&machine::LogLine::text,
+                                  "waiting: no state list received from the middleware")));
+  }
+}
+
+TEST(HlcMachineInTheLab, WaitsForTheTriggerWithoutALimitAndLogsItEveryThirtySeconds) {
+  DrivenMachine one(real_time_in_the_lab());
+  one.on(peers());
+  stand(one);
+  for (int i = 0; i < 3000; ++i) one.next_list(standing());
+  EXPECT_FALSE(one.exit_code());
+  std::vector<machine::LogLine> lines = one.take<machine::LogLine>();
+  std::erase_if(lines, [](const auto& line) { return !line.text.starts_with("waiting: "); });
+  EXPECT_THAT(lines, SizeIs(20));
+  EXPECT_THAT(lines, Each(Field(&machine::LogLine::text, "waiting: no start trigger received")));
+  one.on(SystemTrigger{.next_start = one.now().run});
+  one.next_list(standing());
+  EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
+}
+
+TEST(HlcMachineInTheLab, AVehicleWithoutOneOfOurControllersIsMissingAndNoReasonToLeave) {
+  const std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
+  for (const HlcRules& rules : {real_time_in_the_lab(), logical_time_in_the_lab()}) {
+    DrivenMachine one(rules);
+    one.on(peers());
+    one.next_list(both);
+    one.pass(rules.controller_patience + kSecond);
+    for (int i = 0; i < 9; ++i) one.next_list(both);
+    EXPECT_TRUE(one.has_logged("absent: high_level_controller_2; their vehicles may be driven"));
+    one.on(SystemTrigger{.next_start = one.now().run});
+    std::vector<ReportRecord> records;
+    for (int i = 0; i < 20; ++i) {
+      one.next_list({following(one.machine().controller(), one.step() + 1), both[1]});
+      for (ReportRecord& record : one.take<ReportRecord>()) records.push_back(std::move(record));
+    }
+    EXPECT_FALSE(one.exit_code());
+    ASSERT_THAT(records, SizeIs(testing::Ge(20U)));
+    EXPECT_THAT(records[10].report.missing, ElementsAre(VehicleId{2}));
+    EXPECT_EQ(records.back().report.status, coordination::StepStatus::kPlanned);
+  }
+}
+
+TEST(HlcMachineInTheLab, AControllerThatHasAppearedIsWaitedForBeyondThePatience) {
+  const std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0), seen(2, 0.0, 5.0)};
+  DrivenMachine one(logical_time_in_the_lab());
+  HlcPeers unmatched = peers();
+  unmatched.controllers.alive.insert(controller_name(2));
+  one.on(unmatched);
+  one.next_list(both);
+  one.pass(60 * kSecond);
+  EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty());
+  one.on(peers({2}));
+  EXPECT_THAT(one.take<TrajectoryCommand>(), SizeIs(1));
+}
+
+/// The lab's vehicles are located half a second after their start.
+TEST(HlcMachineReady, InLogicalTimeAPoseThatIsNotTrustedYetIsNotReportedAsOffRoute) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
+  const Pose start = scenario::measured_start(scenario, scenario.vehicles.front());
+  const Pose turned = compose(start, {0.0, 0.0, 1.5});
+  DrivenMachine one(logical_time(), scenario::make_controller(scenario, {1}));
+  one.on(peers());
+  for (int i = 0; i < 3; ++i) one.next_list({{.vehicle = {1}, .pose = turned}});
+  for (int i = 0; i < 7; ++i) one.next_list({{.vehicle = {1}, .pose = start}});
+  EXPECT_FALSE(one.has_logged("fits no route"));
+  EXPECT_TRUE(one.has_logged("selects route red"));
+
+  DrivenMachine off_route(logical_time(), scenario::make_controller(scenario, {1}));
+  off_route.on(peers());
+  for (int i = 0; i < 7; ++i) off_route.next_list({{.vehicle = {1}, .pose = turned}});
+  EXPECT_TRUE(off_route.has_logged("fits no route"));
 }
 
 /// Of a restarted controller: a middleware in logical time waits for every answer.
@@ -170,6 +264,26 @@ TEST(HlcMachineDuplicate, WhoIsReadyStaysUntilAnotherOneSpeaksForItsVehicle) {
 }
 
 // --- the start -----------------------------------------------------------------------------------
+
+TEST(HlcMachineStart, SendsNothingBeforeTheTriggersTimeAndFromItOnWhatTheVehicleNeedsToStand) {
+  for (const HlcRules& rules : {real_time(), real_time_in_the_lab()}) {
+    DrivenMachine one(rules);
+    one.on(peers());
+    stand(one);
+    one.on(SystemTrigger{.next_start = one.now().run + 2 * kPeriod});
+    one.next_list(standing());
+    one.pass(kPeriod / 2);
+    EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty());
+    one.next_list(standing());
+    one.next_list(standing());
+    const std::vector<TrajectoryCommand> sent = one.take<TrajectoryCommand>();
+    ASSERT_THAT(sent, testing::Not(IsEmpty()));
+    const std::vector<TrajectoryPoint>& points = sent.front().points;
+    EXPECT_LT(points.front().t, sent.front().valid_after_stamp);
+    EXPECT_EQ(points.front().vx_mps, 0.0) << "it drives off a step later";
+    EXPECT_GT(points.back().x_m, points.front().x_m);
+  }
+}
 
 TEST(HlcMachineStart, DrivesFromTheFirstListAfterTheTriggersTimeOn) {
   DrivenMachine one(real_time());
@@ -252,6 +366,22 @@ TEST(HlcMachineStart, JoinsARunningExperimentByWhatTheLabControlSays) {
   stand(one);
   EXPECT_EQ(last_status(one), coordination::StepStatus::kPlanned);
   EXPECT_TRUE(one.has_logged("joining the running experiment"));
+}
+
+TEST(HlcMachineInTheLab, NoticesAControlCentreThatStopsAnsweringWithinThreeSecondsAndAQuarter) {
+  DrivenMachine one(real_time_in_the_lab());
+  one.on(peers());
+  start(one);
+  for (int i = 0; i < 25; ++i) {
+    one.next_list(standing());
+    if (!one.take<ParameterRequest>().empty()) one.on(Parameter{.name = "middleware_period_ms"});
+  }
+  EXPECT_FALSE(one.has_logged("lab_control lost"));
+  one.pass(3 * kSecond + LabControlWatch::kAnswerTime);
+  EXPECT_TRUE(one.has_logged("lab_control lost; minimal-risk stop"));
+  EXPECT_FALSE(one.exit_code());
+  one.pass(kControllerStays + 2 * kMillisecond);
+  EXPECT_EQ(one.exit_code(), kExitDied);
 }
 
 // --- the end -------------------------------------------------------------------------------------

@@ -123,7 +123,7 @@ TEST(HlcMachineLoss, AMiddlewareThatIsStartedAgainBeforeTheStartIsAnsweredAgain)
   one.on(peers());
   one.next_list(standing());
   one.pass(kSecond / 2);
-  EXPECT_THAT(one.take<TrajectoryCommand>(), testing::Not(IsEmpty()));
+  EXPECT_THAT(one.take<ReportRecord>(), testing::Not(IsEmpty()));
   EXPECT_THAT(one.take<ReadyStatus>(), testing::Not(IsEmpty()));
   EXPECT_FALSE(one.exit_code());
 }

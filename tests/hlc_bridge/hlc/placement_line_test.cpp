@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
 
@@ -40,6 +42,29 @@ TEST(PlacementLine, SaysHowFarAVehicleIsOffAndWhatIsAllowed) {
   EXPECT_THAT(turned, HasSubstr("(must be <= 150 mm)"));
   EXPECT_THAT(turned, HasSubstr("(must be <= 0.600 rad)"));
   EXPECT_THAT(line_of({3}, {-1.0, -1.0, 0.0}), HasSubstr("is not on the map"));
+}
+
+TEST(PlacementLine, SaysInWhichDirectionAndHowFarAVehicleIsToBeMovedAndTurned) {
+  const Pose start = scenario::measured_start(three_cars(), three_cars().vehicles[2]);
+  Pose beside = start;
+  beside.y_m -= 0.4;
+  const std::string line = line_of({3}, beside);
+  SCOPED_TRACE(line);
+  const std::size_t at = line.find("move it by x ");
+  ASSERT_NE(at, std::string::npos);
+  double x_m{};
+  double y_m{};
+  double to_x_m{};
+  double to_y_m{};
+  double turn_rad{};
+  ASSERT_EQ(std::sscanf(line.c_str() + at,
+                        "move it by x %lf m, y %lf m to (%lf, %lf) and turn it by %lf rad", &x_m,
+                        &y_m, &to_x_m, &to_y_m, &turn_rad),
+            5);
+  EXPECT_NEAR(beside.x_m + x_m, to_x_m, 0.011);
+  EXPECT_NEAR(beside.y_m + y_m, to_y_m, 0.011);
+  const Pose moved{.x_m = to_x_m, .y_m = to_y_m, .heading_rad = beside.heading_rad + turn_rad};
+  EXPECT_THAT(line_of({3}, moved), HasSubstr("selects route green"));
 }
 
 TEST(StuckLine, NamesTheBudgetIfItWasUsedUp) {

@@ -69,6 +69,34 @@ TEST(LabControlWatch, WakesUpWhenTimeAloneChangesIt) {
   EXPECT_TRUE(watch.is_lost_for_good(watch.wake_up().value()));
 }
 
+TEST(LabControlWatch, IsLostOnceThreeRequestsInARowAreUnansweredAndBackWithAnAnswer) {
+  LabControlWatch watch;
+  ASSERT_TRUE(watch.request_is_due(kStart));
+  watch.receive_answer();
+  EXPECT_FALSE(watch.request_is_due(kStart + LabControlWatch::kRequestInterval - 1));
+  Nanoseconds now = kStart;
+  while (watch.look(false, 1, now) == Change::kNone && now < kStart + 10 * kNanosecondsPerSecond) {
+    now = watch.next_request();
+    static_cast<void>(watch.request_is_due(now));
+  }
+  EXPECT_TRUE(watch.is_lost());
+  EXPECT_EQ(now, kStart + 3 * LabControlWatch::kRequestInterval + LabControlWatch::kAnswerTime);
+  ASSERT_TRUE(watch.request_is_due(watch.next_request()));
+  EXPECT_EQ(watch.look(false, 1, now + kNanosecondsPerSecond), Change::kNone) << "still lost";
+  watch.receive_answer();
+  EXPECT_EQ(watch.look(false, 1, now + kNanosecondsPerSecond), Change::kBack);
+}
+
+TEST(LabControlWatch, OneThatHasNeverAnsweredIsNotLostForThat) {
+  LabControlWatch watch;
+  Nanoseconds now = kStart;
+  for (int i = 0; i < 20; ++i) {
+    static_cast<void>(watch.request_is_due(now));
+    EXPECT_EQ(watch.look(false, 1, now), Change::kNone);
+    now = watch.next_request();
+  }
+}
+
 TEST(LabControlGrace, IsOverOnceTheLabControlIsLostForAllOfIt) {
   LabControlGrace grace(100);
   EXPECT_FALSE(grace.is_over(true, 1000));

@@ -88,6 +88,58 @@ TEST(LogicalPacing, HasMorePatienceWithALongStart) {
   EXPECT_EQ(LogicalPacing::patience_for(90 * kSecond), 120 * kSecond);
 }
 
+// --- in the lab ----------------------------------------------------------------------------------
+
+struct LogicalPacingInTheLab : testing::Test {
+  LogicalPacing pacing{60 * kSecond, kWall, LogicalStart::kInTheLab};
+  const Nanoseconds listened_until = kWall + LogicalPacing::kListen;
+};
+
+TEST_F(LogicalPacingInTheLab, TheOperatorMayStartTheRunAnHourLater) {
+  pacing.want(0);
+  EXPECT_FALSE(pacing.is_timed_out(kWall + 3600 * kSecond));
+  pacing.on_trigger(0, kWall + 3600 * kSecond);
+  pacing.want(20);
+  pacing.on_trigger(20, kWall + 3601 * kSecond);
+  pacing.want(40);
+  EXPECT_FALSE(pacing.is_timed_out(kWall + 3660 * kSecond));
+  EXPECT_TRUE(pacing.is_timed_out(kWall + 3661 * kSecond)) << "once it runs it must not pause";
+}
+
+TEST_F(LogicalPacingInTheLab, ListensBeforeItAnnouncesItsFirstTick) {
+  pacing.want(0);
+  EXPECT_EQ(pacing.announcement(kWall), std::nullopt);
+  EXPECT_EQ(pacing.wake_up().wall, listened_until);
+  EXPECT_EQ(pacing.announcement(listened_until), 0U);
+  pacing.on_trigger(0, listened_until);
+  pacing.want(20);
+  EXPECT_EQ(pacing.announcement(listened_until + 1), 20U) << "the later ones at once";
+}
+
+TEST_F(LogicalPacingInTheLab, ATickThatTimeHasPassedIsDueInsteadOfAnnounced) {
+  pacing.want(1);
+  EXPECT_EQ(pacing.announcement(kWall), std::nullopt);
+  EXPECT_TRUE(pacing.on_trigger(7 * kSecond, kWall + 1)) << "of a vehicle, in a run under way";
+  EXPECT_TRUE(pacing.is_due());
+  EXPECT_EQ(pacing.announcement(listened_until), std::nullopt);
+  EXPECT_EQ(pacing.now({.run = 0, .wall = listened_until}).run, 7 * kSecond);
+  pacing.want(7 * kSecond + 1);
+  EXPECT_FALSE(pacing.is_due());
+  EXPECT_EQ(pacing.announcement(listened_until), 7 * kSecond + 1);
+}
+
+TEST_F(LogicalPacingInTheLab, ATriggerFromBeforeTheWishCountsToo) {
+  EXPECT_FALSE(pacing.on_trigger(7 * kSecond, kWall));
+  pacing.want(1);
+  EXPECT_TRUE(pacing.is_due());
+}
+
+TEST_F(LogicalPacingInTheLab, TheStopSymbolIsNoTime) {
+  pacing.want(1);
+  EXPECT_FALSE(pacing.on_trigger(kStopSymbol, kWall));
+  EXPECT_FALSE(pacing.is_due());
+}
+
 TEST(RealPacing, TimeIsThatOfTheClock) {
   RealPacing pacing;
   const Instant now = pacing.now({.run = 5, .wall = 7});

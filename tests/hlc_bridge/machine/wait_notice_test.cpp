@@ -7,6 +7,15 @@
 namespace hlc::machine {
 namespace {
 
+TEST(WaitNotice, ComesAtTheGivenPauseAtTheLatest) {
+  WaitNotice notice(0, 3 * kNanosecondsPerSecond);
+  std::vector<Nanoseconds> seconds;
+  for (Nanoseconds second = 0; second < 12; ++second) {
+    if (notice.is_due(second * kNanosecondsPerSecond)) seconds.push_back(second);
+  }
+  EXPECT_EQ(seconds, (std::vector<Nanoseconds>{2, 5, 8, 11}));
+}
+
 TEST(WaitNotice, ComesAfterTwoSecondsAndThenEverMoreRarely) {
   constexpr Nanoseconds kStart = 3600 * kNanosecondsPerSecond;
   WaitNotice notice(kStart);

@@ -117,6 +117,14 @@ TEST_F(ImpatientMiddlewareTest, CountsMissedAnswersFromTheTriggerOn) {
   EXPECT_EQ(run_.machine().exit_code(), kExitGood);
 }
 
+TEST_F(ImpatientMiddlewareTest, CountsNoListFromBeforeTheTriggersTime) {
+  run_.on(SystemTrigger{run_.now().run + 2 * kPeriod});
+  for (int i = 0; i < 2; ++i) pass_period();
+  EXPECT_EQ(run_.count_lines("has missed"), 0U);
+  for (int i = 0; i < 2; ++i) pass_period();
+  EXPECT_EQ(run_.count_lines("has missed"), 1U);
+}
+
 TEST_F(ImpatientMiddlewareTest, StaysForAWhileWithoutTheLabControl) {
   run_.on(without_lab_control());
   pass_periods(kMiddlewareStays - kPeriod);

@@ -284,6 +284,45 @@ TEST_F(PatientBesideTheLabTest, AControllerIsWaitedForFromItsFirstCommandOn) {
   EXPECT_FALSE(wanted());
 }
 
+TEST_F(PatientBesideTheLabTest, OneOfOurControllersIsWaitedForFromItsAppearanceOn) {
+  MiddlewarePeers peers = run_.all_present({1, 2});
+  peers.own_controllers = {1};
+  run_.on(peers);
+  run_.release(kTick0);
+  EXPECT_FALSE(wanted());
+  run_.on(command(1, kTick0));
+  EXPECT_EQ(wanted(), kTick1);
+}
+
+/// A lab control centre that has started time without this middleware refuses its first tick.
+TEST(MiddlewareBesideTheLabTest, RequestsItsFirstTickAtOnceAndWaitsInItForTheControllers) {
+  test::MiddlewareInMemory run{{.vehicle_ids = {1},
+                                .startup_timeout = kStartupTimeout,
+                                .rules = logical_middleware_rules(true)}};
+  run.begin_in_logical_time();
+  run.publish_parameters(200, {1, 2});
+  EXPECT_EQ(run.machine().wake_up().run, kTick0);
+  run.wait(10 * kStartupTimeout);
+  EXPECT_FALSE(run.machine().exit_code());
+
+  run.release(kTick0);
+  EXPECT_TRUE(run.all<VehicleStateList>().empty());
+  run.on(run.all_present({1, 2}));
+  EXPECT_EQ(run.all<VehicleStateList>().size(), 1U);
+}
+
+TEST(MiddlewareBesideTheLabTest, LetsTimePassAfterTenSecondsWithoutAController) {
+  test::MiddlewareInMemory run{{.vehicle_ids = {1}, .rules = logical_middleware_rules(true)}};
+  run.begin_in_logical_time();
+  run.publish_parameters(200, {1, 2});
+  run.release(kTick0);
+  ASSERT_TRUE(run.machine().wake_up().wall);
+  run.wait(*run.machine().wake_up().wall - run.now().wall);
+  EXPECT_EQ(run.all<VehicleStateList>().size(), 1U);
+  EXPECT_EQ(run.count_lines("no controller is matched"), 1U);
+  EXPECT_EQ(run.machine().wake_up().run, kTick1);
+}
+
 TEST_F(PatientBesideTheLabTest, ForwardsEveryTriggerAndListsObservations) {
   run_.on(SystemTrigger{0});
   run_.on(SystemTrigger{kTick0});

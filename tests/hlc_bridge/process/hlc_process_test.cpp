@@ -104,7 +104,7 @@ class HlcProcessTest : public testing::Test {
     options.node_id = "high_level_controller";
     options.transport = dds::Transport::kLoopback;
     options.rules = high_level_controller::rules_in_real_time(
-        true, {}, time::nanoseconds(options.startup_timeout));
+        false, {}, time::nanoseconds(options.startup_timeout));
     options.domains = {.lab = domains_.first(), .local = local(), .controller = controllers()};
     options.after_step = std::move(after_step);
     process_ = std::make_unique<HlcProcess>(options, scenario::make_controller(red_alone(), {1}));

@@ -37,7 +37,7 @@ class HeldUp {
                                              .present = {}}));
   }
 
-  /// One step in which a vehicle that plans first keeps an area for ever from t(next) on.
+  /// One step in which a vehicle that plans first keeps an area forever from t(next) on.
   void step(const ConvexPolygon& area_m) {
     ++step_;
     static_cast<void>(controller_->observe({.step = {step_},

@@ -40,6 +40,15 @@ TEST(ScenarioPlot, ShowsLanesPathsAndVehiclesWithTheirIds) {
   }
 }
 
+TEST(ScenarioPlot, TheSheetHasThePosesToPlaceTheVehiclesBy) {
+  const scenario::Scenario ring = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_ring.yaml"});
+  const std::string sheet = scenario_plot(ring, map_of(ring), true);
+  EXPECT_EQ(count(sheet, ">vehicle 1: one, x 3.16 m, y 3.89 m, yaw -0.04 rad (-3 deg)<"), 1U);
+  EXPECT_EQ(count(sheet, " rad ("), 4U);
+  EXPECT_EQ(count(scenario_plot(ring, map_of(ring)), " rad ("), 0U);
+}
+
 TEST(ScenarioPlot, OpenGroundHasNoLanes) {
   const std::string plot = plot_of("circle");
   EXPECT_EQ(count(plot, "#f0f0f0"), 0U);

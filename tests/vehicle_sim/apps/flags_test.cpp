@@ -32,7 +32,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadFlags{"", "--vehicle_id"}, BadFlags{"--vehicle_id=0", "1 ... 30"},
         BadFlags{"--vehicle_id=31", "1 ... 30"}, BadFlags{"--vehicle_id=two", "--vehicle_id"},
-        BadFlags{"--vehicle_id=24", "--pose"}, BadFlags{"--vehicle_id=1 --speed=3", "--speed=3"},
+        BadFlags{"--vehicle_id=24", "--pose"},
+        BadFlags{"--vehicle_id=1 --transport=loopback --speed=3", "--speed=3"},
         BadFlags{"--vehicle_id=1 --pose=1,2", "--pose"},
         BadFlags{"--vehicle_id=1 --pose=1,2,north", "--pose"},
         BadFlags{"--vehicle_id=1 --pose=1,nan,0", "--pose"},

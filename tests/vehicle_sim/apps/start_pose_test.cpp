@@ -5,19 +5,36 @@
 #include <limits>
 #include <stdexcept>
 
+#include "planner/scenario/scenario.hpp"
+#include "tests/support/folders.hpp"
+
 namespace hlc::apps {
 namespace {
 
 TEST(StartPose, VehiclesWithAStartOfTheirOwnStandInTheLabClearOfEachOther) {
   for (std::uint8_t a = 1; a <= kLastDefaultStart; ++a) {
     const Pose pose = start_pose(a, {});
-    EXPECT_GT(pose.x_m, 0.2);
-    EXPECT_LT(pose.x_m, 4.3);
-    EXPECT_GT(pose.y_m, 0.2);
-    EXPECT_LT(pose.y_m, 3.8);
+    EXPECT_GT(pose.x_m, 0.1);
+    EXPECT_LT(pose.x_m, 4.4);
+    EXPECT_GT(pose.y_m, 0.1);
+    EXPECT_LT(pose.y_m, 3.9);
     for (std::uint8_t b = 1; b < a; ++b) {
-      EXPECT_GT((start_pose(b, {}).position_m() - pose.position_m()).norm(), 0.5);
+      EXPECT_GT((start_pose(b, {}).position_m() - pose.position_m()).norm(), 0.4);
     }
+  }
+}
+
+TEST(StartPose, OneToFourAreTheStartsOfTheScenarioLabRing) {
+  const scenario::Scenario ring = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_ring.yaml"});
+  ASSERT_EQ(ring.vehicles.size(), 4U);
+  for (const scenario::ScenarioVehicle& vehicle : ring.vehicles) {
+    const Pose pose = start_pose(vehicle.id.value, {});
+    EXPECT_LT((pose.position_m() - vehicle.start.position_m()).norm(), 0.01) << vehicle.name;
+    const auto controller = scenario::make_controller(ring, vehicle.id);
+    static_cast<void>(controller->stand_by(
+        {.step = {1}, .active = {vehicle.id}, .states = {{.vehicle = vehicle.id, .pose = pose}}}));
+    EXPECT_TRUE(controller->fits_route()) << vehicle.name;
   }
 }
 
