@@ -18,8 +18,9 @@ namespace hlc::controller {
 /// value; the map is shared.
 ///
 /// A vehicle that has stood for kPatience_steps with road of its own in front of it gives that road
-/// back, and its waiting starts again: something that the cells do not know of is in its way, perhaps
-/// a vehicle that waits for the same road and stands some millimetres too near to be passed.
+/// back, and its waiting starts again: something that the cells do not know of is in its way,
+/// perhaps a vehicle that waits for the same road and stands some millimetres too near to be
+/// passed.
 ///
 /// The end of the authority is a limit of planning, on top of everything that keeps plans apart:
 /// whatever the others hold or announce, no plan meets another's. It is never in front of the end

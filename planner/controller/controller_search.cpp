@@ -53,8 +53,7 @@ bool Controller::find_candidate(const search::HorizonProblem& problem, std::size
   if (held_up_m) {
     PlanCandidate first = step_.candidate;
     search::HorizonProblem within = with_reference_of(problem, posed_alone(*held_up_m));
-    within.incumbent =
-        rest_of_plan_in_force(*first.plan, step_.next(), options_.horizon_steps);
+    within.incumbent = rest_of_plan_in_force(*first.plan, step_.next(), options_.horizon_steps);
     search_plan(std::move(within), budget_share);
     if (!step_.candidate.plan) {
       first.problems = std::move(step_.candidate.problems);
@@ -101,8 +100,7 @@ std::optional<coordination::OccupiedAreas> Controller::desired_areas() {
   if (!options_.strategies.coordination.makes_room || is_last) return std::nullopt;
   const search::SearchResult result =
       search_.search(pose_problem(&desired_plans_of_predecessors), kMakingRoomShare);
-  const bool is_better =
-      !step_.candidate.plan || result.cost < step_.cost_m2 - kLeastGain_m2;
+  const bool is_better = !step_.candidate.plan || result.cost < step_.cost_m2 - kLeastGain_m2;
   if (result.maneuvers.empty() || !is_better) return std::nullopt;
   return in_force_->areas_of(plan_of(result.maneuvers), step_.next());
 }

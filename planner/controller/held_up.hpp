@@ -17,8 +17,8 @@ inline constexpr double kHeldUp_m = 0.1;
 /// A reference point lies where a free vehicle would be, and across the path is what is across it
 /// there. For a vehicle that is held up before a bend this is along its own lane, so it would leave
 /// the lane to lower the cost, and block the next one. Its reference has to end where it can get to
-/// (`with_reference_of` a problem that is posed up to there); a second search then finds a plan that
-/// gets about as far and stays in the lane.
+/// (`with_reference_of` a problem that is posed up to there); a second search then finds a plan
+/// that gets about as far and stays in the lane.
 /// @param next     the plan is known from t(next) on
 /// @param tracker  has selected a route
 /// @param reach_m  as for RouteTracker::project

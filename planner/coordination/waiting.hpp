@@ -31,8 +31,8 @@ inline constexpr double kStuckAfter_s = 20.0;
 /// "vehicle 3, waiting for 1, 2 for 20.4 s". @pre it waits
 [[nodiscard]] std::string waiting_text(const Report& report, double step_s);
 
-/// Notices that one vehicle becomes stuck: once per waiting. Reports, too, if it has not moved since the
-/// first report: then the start places are a knot already.
+/// Notices that one vehicle becomes stuck: once per waiting. Reports, too, if it has not moved
+/// since the first report: then the start places are a knot already.
 class StuckNotice {
  public:
   /// @param report  of the next step

@@ -116,9 +116,8 @@ class Grants {
 
   /// For a vehicle whose own cells are not counted.
   [[nodiscard]] bool is_free(std::size_t route, std::size_t cell) const {
-    const bool is_held = std::ranges::any_of(map_.overlaps(route, cell), [&](std::uint32_t one) {
-      return num_holders_[one] > 0;
-    });
+    const bool is_held = std::ranges::any_of(
+        map_.overlaps(route, cell), [&](std::uint32_t one) { return num_holders_[one] > 0; });
     if (is_held) return false;
     const ConvexPolygon& area_m = map_.area_m(route, cell);
     return std::ranges::none_of(blocked_,

@@ -31,10 +31,8 @@ class HeldUp {
     const Point to_m = line_(place_m + 0.02);
     const Pose start{line_(place_m).x(), line_(place_m).y(),
                      std::atan2((to_m - from_m).y(), (to_m - from_m).x())};
-    static_cast<void>(controller_->stand_by({.step = {step_},
-                                             .active = {own_},
-                                             .states = {measured(start)},
-                                             .present = {}}));
+    static_cast<void>(controller_->stand_by(
+        {.step = {step_}, .active = {own_}, .states = {measured(start)}, .present = {}}));
   }
 
   /// One step in which a vehicle that plans first keeps an area forever from t(next) on.
@@ -111,8 +109,7 @@ TEST(HeldUpCar, StaysInItsLaneBehindWhoeverReachesIntoIt) {
     const VehicleId vehicle{static_cast<std::uint8_t>(1 + random() % 20)};
     const double place_m = uniform(1.0, 7.0);
     HeldUp car(vehicle, place_m);
-    const ConvexPolygon area_m =
-        intruder_m(car, place_m + uniform(0.4, 0.6), uniform(-0.06, 0.06));
+    const ConvexPolygon area_m = intruder_m(car, place_m + uniform(0.4, 0.6), uniform(-0.06, 0.06));
     const Point start_m = car.controller().plan_in_force().pose_at({100}).position_m();
     for (int i = 0; i < 6; ++i) car.step(area_m);
     const double led_m = (car.end().position_m() - start_m).norm();
@@ -133,7 +130,8 @@ class HeldUpAt : public testing::Test {
     };
     tracker_.select_route(pose_on(s_m - 0.3), {0.22, 0.107});
     const automaton::Subgraph& on = *lab_cars().subgraph;
-    const coordination::Plan standing({1}, pose_on(s_m), self_loop(on.automaton(), on.standstill()));
+    const coordination::Plan standing({1}, pose_on(s_m),
+                                      self_loop(on.automaton(), on.standstill()));
     search::HorizonProblem problem;
     problem.reference_m.push_back(pose_on(reference_s_m).position_m());
     return held_up_at_m(standing, {1}, problem, tracker_, 2.0);

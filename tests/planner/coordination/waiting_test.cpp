@@ -30,8 +30,9 @@ TEST(Waiting, IsStuckAfterTwentySeconds) {
 TEST(Waiting, AVehicleThatHasNotMovedSinceTheStartIsToldSo) {
   StuckNotice notice;
   EXPECT_FALSE(notice.note(waiting(50), kStep_s));
-  EXPECT_THAT(notice.note(waiting(149), kStep_s).value(),
-              testing::EndsWith("; it has not moved since the start: place the vehicles elsewhere"));
+  EXPECT_THAT(
+      notice.note(waiting(149), kStep_s).value(),
+      testing::EndsWith("; it has not moved since the start: place the vehicles elsewhere"));
 }
 
 TEST(Waiting, IsNoticedOnceAndAgainAfterABreak) {

@@ -41,8 +41,7 @@ bool hold_overlapping_cells(const ConflictMap& map, const Holder& a, const Holde
   const std::vector<std::size_t> others = cells_of(map, b, 0.0, b.claim.ahead_m);
   return std::ranges::any_of(cells_of(map, a, 0.0, a.claim.ahead_m), [&](std::size_t i) {
     return std::ranges::any_of(others, [&](std::size_t j) {
-      return std::ranges::binary_search(map.overlaps(a.claim.route, i),
-                                        map.cell(b.claim.route, j));
+      return std::ranges::binary_search(map.overlaps(a.claim.route, i), map.cell(b.claim.route, j));
     });
   });
 }
