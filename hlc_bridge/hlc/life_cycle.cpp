@@ -83,10 +83,23 @@ void LifeCycle::remind(Nanoseconds wall, HlcActions& actions) {
   }
 }
 
-/// @param missing  what the start waits for
-void LifeCycle::remind_of_start(Nanoseconds wall, const std::string& missing, HlcActions& actions) {
+/// Why the vehicle cannot start from where it is; empty: it can.
+std::string_view LifeCycle::obstacle_to_start(const controller::Controller& controller) const {
+  if (controller.placement()) {
+    return controller.fits_route() ? "" : "the vehicle fits no route";
+  }
+  return rules_.start == StartRule::kAtTrigger ? "the vehicle has not been seen standing yet" : "";
+}
+
+/// @param missing  what the start waits for; empty: nothing
+void LifeCycle::remind_of_start(Nanoseconds wall, std::string_view missing, HlcActions& actions) {
+  if (!rules_.waits_for_start || rules_.start != StartRule::kAtTrigger) return;
+  if (missing.empty()) {
+    ready_.next_reminder = 0;
+    return;
+  }
   if (ready_.next_reminder != 0 && wall >= ready_.next_reminder) {
-    actions.info("waiting: " + missing);
+    actions.info(fmt::format("waiting: {}", missing));
     ready_.next_reminder = 0;
   }
   if (ready_.next_reminder == 0) ready_.next_reminder = wall + kReminderPause;
@@ -94,20 +107,12 @@ void LifeCycle::remind_of_start(Nanoseconds wall, const std::string& missing, Hl
 
 void LifeCycle::publish_ready(Nanoseconds wall, const controller::Controller& controller,
                               bool has_started, HlcActions& actions) {
-  const bool is_off_route = controller.placement() && !controller.fits_route();
-  const bool is_unseen = rules_.start == StartRule::kAtTrigger && !controller.placement();
-  ready_.repeats = readiness_.is_ready() && !is_off_route && !is_unseen && !has_started;
-  if (rules_.waits_for_start && rules_.start == StartRule::kAtTrigger) {
-    if (!readiness_.is_ready() || has_started) {
-      ready_.next_reminder = 0;
-    } else {
-      remind_of_start(wall,
-                      is_off_route ? "the vehicle fits no route"
-                      : is_unseen  ? "the vehicle has not been seen standing yet"
-                                   : "no start trigger received",
-                      actions);
-    }
-  }
+  const bool is_open = readiness_.is_ready() && !has_started;
+  const std::string_view obstacle = obstacle_to_start(controller);
+  ready_.repeats = is_open && obstacle.empty();
+  std::string_view missing = obstacle.empty() ? "no start trigger received" : obstacle;
+  if (!is_open) missing = {};
+  remind_of_start(wall, missing, actions);
   if (!ready_.repeats || wall < ready_.next_at) return;
   if (ready_.next_at == 0 && rules_.start == StartRule::kAtTrigger) {
     actions.info("ready; waiting for the start trigger");

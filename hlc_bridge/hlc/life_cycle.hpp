@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "hlc_bridge/hlc/hlc_events.hpp"
@@ -73,7 +74,8 @@ class LifeCycle {
 
   void watch_lab_control(Nanoseconds wall, HlcActions& actions);
   void remind(Nanoseconds wall, HlcActions& actions);
-  void remind_of_start(Nanoseconds wall, const std::string& missing, HlcActions& actions);
+  [[nodiscard]] std::string_view obstacle_to_start(const controller::Controller& controller) const;
+  void remind_of_start(Nanoseconds wall, std::string_view missing, HlcActions& actions);
   [[nodiscard]] bool is_start_overdue(Nanoseconds wall) const {
     return !rules_.waits_for_start && !readiness_.is_ready() &&
            wall > *began_at_ + startup_timeout_;

@@ -138,7 +138,8 @@ TEST_F(AuthorityTest, RoadThatIsNotUsedIsGivenBackAndWaitedForAnew) {
 }
 
 TEST_F(AuthorityTest, WhoHoldsNothingButItsPlaceKeepsItsPlaceInTheQueue) {
-  for (std::uint64_t step = 1; step <= 3 * Authority::kPatience_steps; ++step) {
+  static_assert(Authority::kPatience_steps < 75);
+  for (std::uint64_t step = 1; step <= 75; ++step) {
     begin_step(ring_.standing(1.0), step);
     EXPECT_EQ(authority_.claim().waiting_steps, step - 1);
     extend({Ring::other_at(2, 1.0 + car().footprint.length_m + 0.03)});

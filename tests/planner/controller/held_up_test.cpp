@@ -65,8 +65,8 @@ class HeldUp {
   /// Of the plan's end, from the driving line.
   [[nodiscard]] double offset_m() const {
     double least_m = std::numeric_limits<double>::infinity();
-    for (double s_m = 0.0; s_m < controller_->route().path.length_m(); s_m += 0.005) {
-      least_m = std::min(least_m, (line_(s_m) - end().position_m()).norm());
+    for (int i = 0; 0.005 * i < controller_->route().path.length_m(); ++i) {
+      least_m = std::min(least_m, (line_(0.005 * i) - end().position_m()).norm());
     }
     return least_m;
   }
