@@ -22,7 +22,8 @@ struct StepDeadlines {
 /// that is safe (HlcCore::may_stand_by).
 enum class StartRule : std::uint8_t {
   /// All controllers derive the first step from the same lists: the first list is answered only
-  /// when all of them are matched, and every list from then on.
+  /// when all of them are matched (HlcRules::waits_for_start: or absent for longer than the
+  /// patience), and every list from then on.
   kTogether,
   /// From the start trigger's time on, or later by joining the running experiment. Before that time
   /// nothing is sent to the vehicle, nor ever to one that fits no route.

@@ -23,7 +23,7 @@ namespace hlc::controller {
 /// passed.
 ///
 /// The end of the authority is a limit of planning, on top of everything that keeps plans apart:
-/// whatever the others hold or announce, no plan meets another's. It is never in front of the end
+/// whatever the others hold or announce, no plan meets another's. It is never nearer than the end
 /// of the plan in force. A car that stands askew in a bend may reach into the bar behind the end;
 /// it then finds no plan until more is granted to it.
 class Authority {

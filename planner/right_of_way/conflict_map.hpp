@@ -42,9 +42,8 @@ inline constexpr ConflictRules kTours{.along_m = 0.030, .joined_m = 0.020};
 ///
 /// A cell is a *conflict cell* if it overlaps a cell of a route that crosses it or merges with it
 /// there, or its own route farther on; where routes share a lane, a car only follows the other, and
-/// where a route drives a lane again, it follows itself. A
-/// vehicle that stands in a conflict cell may block vehicles that do not follow it: right of way
-/// (grant.hpp) never lets it stop there.
+/// where a route drives a lane again, it follows itself. A vehicle that stands in a conflict cell
+/// may block vehicles that do not follow it: no authority (grant.hpp) ends there.
 class ConflictMap {
  public:
   /// @pre every path is closed

@@ -35,9 +35,9 @@ struct Blocked {
 /// same, without a further message. It never takes a cell from a vehicle. Two controllers that
 /// received different messages may take the same cell.
 ///
-/// What this is for: no vehicle ever stops in a cell that a vehicle of another lane needs. That no
-/// state without a way on is reached is measured, not proven: vehicles may still wait for each
-/// other around a circle of full lanes.
+/// What this is for: no authority ends in a cell that a vehicle of another lane needs. A vehicle
+/// that is held up on its way may still stop in one. That no state without a way on is reached is
+/// measured, not proven: vehicles may still wait for each other around a circle of full lanes.
 [[nodiscard]] std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holders,
                                         std::span<const Blocked> blocked, double look_ahead_m);
 

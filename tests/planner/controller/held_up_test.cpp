@@ -99,8 +99,9 @@ ConvexPolygon intruder_m(const HeldUp& car, double s_m, double beside_m) {
 }
 
 TEST(HeldUpCar, StaysInItsLaneBehindWhoeverReachesIntoIt) {
-  std::size_t num_held_up = 0;
-  for (std::uint64_t seed = 0; seed < test::num_costly_seeds(30); ++seed) {
+  const std::uint64_t num_cars = test::num_costly_seeds(30);
+  std::uint64_t num_held_up = 0;
+  for (std::uint64_t seed = 0; seed < num_cars; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
     const auto uniform = [&](double from, double to) {
@@ -117,7 +118,7 @@ TEST(HeldUpCar, StaysInItsLaneBehindWhoeverReachesIntoIt) {
     ++num_held_up;
     EXPECT_LT(car.offset_m(), 0.030) << led_m;
   }
-  EXPECT_GT(num_held_up, 15U);
+  EXPECT_GT(3 * num_held_up, num_cars) << num_held_up << " of " << num_cars;
 }
 
 /// Standing at arc length s of a ring of 12.6 m.
