@@ -111,37 +111,41 @@ class LogicalPacing : public Pacing {
 
   bool on_trigger(Nanoseconds next_start, Nanoseconds wall) override {
     last_trigger_ = wall;
-    if (next_start != kStopSymbol) newest_trigger_ = std::max(newest_trigger_, next_start);
+    if (next_start != kStopSymbol)
+      newest_trigger_ = std::max(newest_trigger_.value_or(0), next_start);
     if (wanted_ != next_start) return release_if_passed();  // for other processes
     released_ = next_start;
     return true;
   }
   [[nodiscard]] std::optional<Nanoseconds> announcement(Nanoseconds wall) override {
     if (!wanted_ || is_due() || wall < next_announcement_) return std::nullopt;
-    if (start_ == LogicalStart::kInTheLab && !listens_until_) {
-      listens_until_ = next_announcement_ = wall + kListen;
-      return std::nullopt;
+    if (start_ == LogicalStart::kInTheLab) {
+      if (!listens_until_) listens_until_ = wall + kListen;
+      if (wall < *listens_until_) {
+        next_announcement_ = *listens_until_;
+        return std::nullopt;
+      }
     }
     next_announcement_ = wall + kRepeat;
     return wanted_;
   }
   [[nodiscard]] bool is_timed_out(Nanoseconds wall) const override {
-    if (start_ == LogicalStart::kInTheLab && newest_trigger_ == 0) return false;
+    if (start_ == LogicalStart::kInTheLab && !newest_trigger_) return false;
     return wanted_ && !is_due() && wall - std::min(wall, last_trigger_) >= patience_;
   }
 
  private:
   bool release_if_passed() {
-    if (start_ != LogicalStart::kInTheLab || !wanted_ || newest_trigger_ <= *wanted_) return false;
+    if (start_ != LogicalStart::kInTheLab || !wanted_ || newest_trigger_ <= wanted_) return false;
     released_ = newest_trigger_;
     return true;
   }
 
   Nanoseconds patience_;
   LogicalStart start_;
-  Nanoseconds last_trigger_;                  ///< wall
-  Nanoseconds newest_trigger_{};              ///< the largest time; 0: none
-  std::optional<Nanoseconds> listens_until_;  ///< wall
+  Nanoseconds last_trigger_;                   ///< wall
+  std::optional<Nanoseconds> newest_trigger_;  ///< the largest time
+  std::optional<Nanoseconds> listens_until_;   ///< wall
   std::optional<Nanoseconds> wanted_;
   std::optional<Nanoseconds> released_;
   Nanoseconds next_announcement_{};  ///< wall

@@ -116,6 +116,22 @@ TEST_F(LogicalPacingInTheLab, ListensBeforeItAnnouncesItsFirstTick) {
   EXPECT_EQ(pacing.announcement(listened_until + 1), 20U) << "the later ones at once";
 }
 
+TEST_F(LogicalPacingInTheLab, ListensToTheEndAlsoIfItsWishChanges) {
+  pacing.want(1);
+  EXPECT_EQ(pacing.announcement(kWall), std::nullopt);
+  pacing.want(20);
+  EXPECT_EQ(pacing.announcement(kWall + 1), std::nullopt);
+  EXPECT_EQ(pacing.wake_up().wall, listened_until);
+  EXPECT_EQ(pacing.announcement(listened_until), 20U);
+}
+
+TEST_F(LogicalPacingInTheLab, ATriggerOfTimeZeroIsTheBeginOfTheRun) {
+  pacing.want(0);
+  pacing.on_trigger(0, kWall);
+  pacing.want(20);
+  EXPECT_TRUE(pacing.is_timed_out(kWall + 60 * kSecond));
+}
+
 TEST_F(LogicalPacingInTheLab, ATickThatTimeHasPassedIsDueInsteadOfAnnounced) {
   pacing.want(1);
   EXPECT_EQ(pacing.announcement(kWall), std::nullopt);
