@@ -46,7 +46,7 @@ inline std::filesystem::path scenario_file(const std::filesystem::path& flag,
                                            const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   const auto found = [&folder](const fs::path& name) {
-    if (fs::exists(name) || name.has_extension()) return name;
+    if (fs::is_regular_file(name) || name.has_extension()) return name;
     return folder / "scenarios" / (name.string() + ".yaml");
   };
   const auto checked = [](const std::string& source, const std::string& name, fs::path file) {
@@ -59,7 +59,7 @@ inline std::filesystem::path scenario_file(const std::filesystem::path& flag,
   if (const auto line = default_scenario_line(folder)) {
     const fs::path beside = folder / *line;
     return checked((folder / kDefaultScenarioFile).string(), *line,
-                   fs::exists(beside) ? beside : found(*line));
+                   fs::is_regular_file(beside) ? beside : found(*line));
   }
   return found(kDefaultScenario);
 }

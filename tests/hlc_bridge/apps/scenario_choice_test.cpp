@@ -55,6 +55,19 @@ TEST_F(ScenarioChoice, AFileInPlaceOfANameIsTakenAsItIs) {
   EXPECT_EQ(scenario_file("", "", program_ / ""), own) << "from the program's folder";
 }
 
+TEST_F(ScenarioChoice, AFolderWithTheNameOfAScenarioIsNone) {
+  const test::TemporaryFolder working;
+  fs::create_directory(working / "lab_three_cars");
+  fs::create_directory(working / "lab_circle");
+  const fs::path former = fs::current_path();
+  fs::current_path(working / "");
+  const fs::path by_default = scenario_file("", "", program_ / "");
+  const fs::path named = scenario_file("", "lab_circle", program_ / "");
+  fs::current_path(former);
+  EXPECT_EQ(by_default, scenario("lab_three_cars"));
+  EXPECT_EQ(named, scenario("lab_circle"));
+}
+
 TEST_F(ScenarioChoice, AnUnknownNameIsRefusedWithItsSource) {
   const std::string missing = ", must name an existing scenario; no file ";
   EXPECT_EQ(refusal("nowhere"), "HLC_SCENARIO = nowhere" + missing + scenario("nowhere").string());
