@@ -39,7 +39,10 @@ std::optional<std::string> StuckNotice::note(const Report& report, double step_s
   if (!is_stuck_ || was_stuck) return std::nullopt;
   return "stuck: " + waiting_text(report, step_s) +
          ", although its road would be free without the others" +
-         (has_moved_ ? "" : "; it has not moved since the start: place the vehicles elsewhere");
+         (has_moved_ ? ""
+                     : "; it has not moved since its controller began: if that was at the start of "
+                       "the run, "
+                       "place the vehicles elsewhere");
 }
 
 }  // namespace hlc::coordination

@@ -32,7 +32,7 @@ inline constexpr double kStuckAfter_s = 20.0;
 [[nodiscard]] std::string waiting_text(const Report& report, double step_s);
 
 /// Notices that one vehicle becomes stuck: once per waiting. Reports, too, if it has not moved
-/// since the first report: then the start places are a knot already.
+/// since the first report: at the start of a run the start places are a knot then.
 class StuckNotice {
  public:
   /// @param report  of the next step

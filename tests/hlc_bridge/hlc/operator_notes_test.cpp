@@ -25,7 +25,8 @@ TEST(OperatorNotes, LogThatAVehicleIsStuckOnceInAWait) {
     lines.push_back(std::get<machine::LogLine>(action));
   const machine::LogLine line = machine::warning(
       "stuck: vehicle 1, waiting for 4 for 20.0 s, although its road would be free without the "
-      "others; it has not moved since the start: place the vehicles elsewhere");
+      "others; it has not moved since its controller began: if that was at the start of the run, "
+      "place the vehicles elsewhere");
   EXPECT_THAT(lines, ElementsAre(line, line));
 }
 

@@ -113,7 +113,8 @@ TEST_F(LogicalLabControl, LogsOnceThatAVehicleIsStuck) {
   EXPECT_THAT(of<machine::LogLine>(advance()),
               ElementsAre(machine::warning("stuck: vehicle 1, waiting for 2 for 20.0 s, although "
                                            "its road would be free without the others; it has not "
-                                           "moved since the start: place the vehicles elsewhere")));
+                                           "moved since its controller began: if that was at the "
+                                           "start of the run, place the vehicles elsewhere")));
   waiting.report.step.value = 202;
   lab_.on(waiting);
   EXPECT_THAT(of<machine::LogLine>(advance()), IsEmpty());
