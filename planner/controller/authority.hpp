@@ -17,10 +17,10 @@ namespace hlc::controller {
 /// How far one vehicle may go on the shared road, by the right of way among all (grant.hpp). A
 /// value; the map is shared.
 ///
-/// A vehicle that has stood for kPatience_steps with road of its own in front of it gives that road
-/// back, and its waiting starts again: something that the cells do not know of is in its way,
-/// perhaps a vehicle that waits for the same road and stands some millimetres too near to be
-/// passed.
+/// A vehicle that has stood for kPatience_steps with road of its own in front of it, not in a
+/// conflict cell, gives that road back, and its waiting starts again: something that the cells do
+/// not know of is in its way, perhaps a vehicle that waits for the same road and stands some
+/// millimetres too near to be passed.
 ///
 /// The end of the authority is a limit of planning, on top of everything that keeps plans apart:
 /// whatever the others hold or announce, no plan meets another's. It is never nearer than the end
@@ -32,6 +32,8 @@ class Authority {
 
   explicit Authority(std::shared_ptr<const right_of_way::ConflictMap> map);
 
+  /// The vehicle holds nothing any longer: it was moved to another place.
+  void release() { has_place_ = false; }
   /// Starts a step: the vehicle's place, by its plan.
   /// @param reach_m  as for RouteTracker::project
   void begin_step(const coordination::Plan& in_force, StepIndex now, const RouteTracker& tracker,

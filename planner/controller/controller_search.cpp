@@ -43,29 +43,38 @@ void Controller::search_candidate() {
   step_.obstacle = step_.candidate.obstacle;
 }
 
-/// With right of way the candidate keeps to its lane also where it is held up.
 bool Controller::find_candidate(const search::HorizonProblem& problem, std::size_t budget_share) {
   search_plan(problem, budget_share);
   step_.cost_m2 = step_.report.cost_m2;
   if (!authority_ || !step_.candidate.plan) return step_.candidate.plan.has_value();
-  const std::optional<double> held_up_m =
-      held_up_at_m(*step_.candidate.plan, step_.next(), problem, tracker_, reach_m());
-  if (held_up_m) {
-    PlanCandidate first = step_.candidate;
-    search::HorizonProblem within = with_reference_of(problem, posed_alone(*held_up_m));
-    within.incumbent = rest_of_plan_in_force(*first.plan, step_.next(), options_.horizon_steps);
-    search_plan(std::move(within), budget_share);
-    if (!step_.candidate.plan) {
-      first.problems = std::move(step_.candidate.problems);
-      step_.candidate = std::move(first);
-    }
-  }
+  keep_in_lane_where_held_up(problem, budget_share);
   if (!ends_along_lane(*step_.candidate.plan, in_force_->base(), step_.next(), tracker_,
                        reach_m())) {
     step_.candidate.plan.reset();
     step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
   }
   return step_.candidate.plan.has_value();
+}
+
+/// The second plan replaces the first one also if it ends askew and is dropped then, and it is
+/// searched also where the first search has used up its expansions: the first may leave the lane.
+void Controller::keep_in_lane_where_held_up(const search::HorizonProblem& problem,
+                                            std::size_t budget_share) {
+  const std::optional<double> held_up_m =
+      held_up_at_m(*step_.candidate.plan, step_.next(), problem, tracker_, reach_m());
+  if (!held_up_m) return;
+  search::HorizonProblem within = with_reference_of(problem, posed_alone(*held_up_m));
+  within.incumbent =
+      options_.strategies.incumbent(*step_.candidate.plan, step_.next(), options_.horizon_steps);
+  PlanCandidate first = step_.candidate;
+  coordination::Report report = step_.report;
+  search_plan(std::move(within), budget_share);
+  if (step_.candidate.plan) return;
+  first.problems = std::move(step_.candidate.problems);
+  step_.candidate = std::move(first);
+  report.generated = step_.report.generated;
+  report.expanded = step_.report.expanded;
+  step_.report = std::move(report);
 }
 
 /// The problems of former searches stay.

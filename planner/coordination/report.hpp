@@ -64,7 +64,9 @@ struct Report {
   /// Name of the subgraph on which the plan of this step was found; without a plan, of the subgraph
   /// that the controller plans on.
   std::string subgraph;
-  double cost_m2{};  ///< of the plan found in this step; 0 if none
+  /// Of the plan found in this step, for the reference of the search that found it: for a vehicle
+  /// that is held up with right of way, one that ends where it can get to; 0 if none.
+  double cost_m2{};
   PlanQuality quality{PlanQuality::kNone};
   double gap_m2{};            ///< of that plan: its cost minus a lower bound of every plan's; or 0
   std::uint64_t generated{};  ///< vertices

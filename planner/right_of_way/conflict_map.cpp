@@ -38,6 +38,12 @@ ConflictMap::ConflictMap(std::span<const road::DrivableRoute> routes,
   for (Cell& cell : cells_) cell.lanes.clear();
 }
 
+std::size_t ConflictMap::index_at(std::size_t route, double s_m) const {
+  const auto count = static_cast<std::int64_t>(num_cells(route));
+  const std::int64_t cell = std::llround(s_m / cell_m(route)) % count;
+  return static_cast<std::size_t>(cell < 0 ? cell + count : cell);
+}
+
 void ConflictMap::add_route(const road::DrivableRoute& route,
                             const vehicle::VehicleParameters& vehicle, const ConflictRules& rules,
                             NearPoints& near) {

@@ -57,6 +57,9 @@ class ConflictMap {
   [[nodiscard]] double cell_m(std::size_t route) const {
     return lengths_m_[route] / static_cast<double>(routes_[route].size());
   }
+  /// Index on the route of the cell that stands for this arc length, any one counted on over the
+  /// ends of the route.
+  [[nodiscard]] std::size_t index_at(std::size_t route, double s_m) const;
   [[nodiscard]] const ConvexPolygon& area_m(std::size_t route, std::size_t cell) const {
     return cells_[routes_[route][cell]].area_m;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <utility>
 
 #include "planner/controller/followed_plan.hpp"
 #include "planner/controller/joint_step.hpp"
@@ -29,7 +30,10 @@ const vehicle::VehicleParameters& car() { return automaton::paper_automaton()->v
 /// A ring of 12.6 m and what vehicles on it plan.
 class Ring {
  public:
-  Ring() { tracker.select_route(pose_on(0.0), car().footprint); }
+  explicit Ring(road::DrivableRoute route = right_of_way::circle({0.0, 0.0}, 2.0), double s_m = 0.0)
+      : tracker(std::make_shared<const std::vector<road::DrivableRoute>>(1, std::move(route))) {
+    tracker.select_route(pose_on(s_m), car().footprint);
+  }
 
   [[nodiscard]] const road::ReferencePath& path() const { return tracker.route().path; }
   [[nodiscard]] Pose pose_on(double s_m) const {
@@ -51,8 +55,7 @@ class Ring {
     return {.vehicle = {vehicle}, .claim = LaneClaim{.place_m = s_m, .ahead_m = ahead_m}};
   }
 
-  RouteTracker tracker{std::make_shared<const std::vector<road::DrivableRoute>>(
-      1, right_of_way::circle({0.0, 0.0}, 2.0))};
+  RouteTracker tracker;
   std::shared_ptr<const right_of_way::ConflictMap> map{
       std::make_shared<const right_of_way::ConflictMap>(tracker.routes(), car())};
 };
@@ -135,6 +138,34 @@ TEST_F(AuthorityTest, RoadThatIsNotUsedIsGivenBackAndWaitedForAnew) {
     extend({});
   }
   EXPECT_NEAR(end_m(), 1.0 + kLookAhead_m, 0.04) << "nobody else has taken it";
+}
+
+TEST_F(AuthorityTest, WhoWasMovedHoldsItsNewPlaceOnly) {
+  begin_step(ring_.standing(1.0), 1);
+  extend({});
+  authority_.release();
+  begin_step(ring_.standing(0.5), 2);
+  EXPECT_NEAR(authority_.claim().place_m, 0.5, 0.01);
+  EXPECT_EQ(authority_.claim().ahead_m, 0.0);
+}
+
+// It gave its exit back, another car took it, and both stood.
+TEST(AuthorityOnACrossing, WhoStandsInAConflictCellKeepsTheRoadAhead) {
+  std::size_t num_kept = 0;
+  for (const double s_m : {0.02, 0.1, 1.0, 1.5}) {
+    const Ring eight(right_of_way::figure_eight(), s_m);
+    Authority authority(eight.map);
+    bool is_given_back = false;
+    for (std::uint64_t step = 1; step <= 2 * Authority::kPatience_steps; ++step) {
+      authority.begin_step(eight.standing(s_m), {step}, eight.tracker, kReach_m);
+      is_given_back |= step > 1 && authority.claim().ahead_m < 0.1;
+      authority.extend({1}, {}, {}, {}, 0.0);
+    }
+    const bool is_conflict = eight.map->is_conflict(0, eight.map->index_at(0, s_m));
+    EXPECT_NE(is_given_back, is_conflict) << s_m;
+    num_kept += is_conflict ? 1U : 0U;
+  }
+  EXPECT_EQ(num_kept, 2U);
 }
 
 TEST_F(AuthorityTest, WhoHoldsNothingButItsPlaceKeepsItsPlaceInTheQueue) {
