@@ -9,8 +9,18 @@
 #include "hlc_bridge/hlc/command.hpp"
 #include "hlc_bridge/hlc/own_command_check.hpp"
 #include "planner/common/yaml_text.hpp"
+#include "planner/vehicle/lab_limits.hpp"
 
 namespace hlc::high_level_controller {
+namespace {
+
+AnswerToList with_copy(TrajectoryCommand command) {
+  AnswerToList result{.command = std::move(command), .copy = std::nullopt, .fault = ""};
+  if (!result.command.points.empty()) result.copy = copy_for_later(result.command);
+  return result;
+}
+
+}  // namespace
 
 HlcCore::HlcCore(std::unique_ptr<controller::Controller> controller)
     : controller_(std::move(controller)) {}
@@ -80,27 +90,38 @@ bool HlcCore::begins(const VehicleStateList& list, const controller::Observation
 }
 
 AnswerToList HlcCore::answer(const VehicleStateList& list) {
-  const coordination::Plan* plan =
-      controller_->has_plan() ? &controller_->plan_in_force() : nullptr;
-  const controller::ControllerOptions& options = controller_->options();
-  const auto with_copy = [](TrajectoryCommand command) {
-    AnswerToList result{.command = std::move(command), .copy = std::nullopt, .fault = ""};
-    if (!result.command.points.empty()) result.copy = copy_for_later(result.command);
+  const bool has_way = controller_->has_plan() && !controller_->is_vehicle_elsewhere();
+  AnswerToList result = answer_with(has_way ? &controller_->plan_in_force() : nullptr, list);
+  std::string fault = validate(result);
+  if (fault.empty()) {
+    if (has_way) last_good_ = result.command;
     return result;
-  };
-  AnswerToList result = with_copy(
+  }
+  result = last_good_ && may_repeat(*last_good_, list)
+               ? with_copy(republished(*last_good_, list.t_now))
+               : answer_with(nullptr, list);
+  result.fault = std::move(fault);
+  return result;
+}
+
+AnswerToList HlcCore::answer_with(const coordination::Plan* plan,
+                                  const VehicleStateList& list) const {
+  const controller::ControllerOptions& options = controller_->options();
+  return with_copy(
       command_of(options.vehicle, plan, step_of(list), list.t_now, period_of(list),
                  controller_->subgraph().automaton().vehicle,
                  options.lab ? options.lab->point_interval_s : controller::kPointInterval_s));
-  std::string fault = validate(result);
-  if (fault.empty()) {
-    last_good_ = result.command;
-    return result;
-  }
-  result = with_copy(republished(
-      last_good_.value_or(TrajectoryCommand{.vehicle_id = options.vehicle.value}), list.t_now));
-  result.fault = std::move(fault);
-  return result;
+}
+
+/// The vehicle is not too far from every point to follow the command.
+bool HlcCore::may_repeat(const TrajectoryCommand& command, const VehicleStateList& list) const {
+  const controller::Observation observation = observation_of(list);
+  const coordination::MeasuredVehicle* vehicle = own(observation);
+  return vehicle == nullptr ||
+         std::ranges::any_of(command.points, [&](const TrajectoryPoint& point) {
+           const Point off_m = Point(point.x_m, point.y_m) - vehicle->pose.position_m();
+           return off_m.norm() <= vehicle::kStopBound_m;
+         });
 }
 
 std::string HlcCore::validate(const AnswerToList& answer) const {

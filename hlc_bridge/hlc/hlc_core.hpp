@@ -81,13 +81,19 @@ class HlcCore {
   [[nodiscard]] bool has_begun() const { return has_begun_; }
 
   /// The plan in force as commands, in answer to the list; without a plan an answer that leaves the
-  /// vehicle alone (command_of). The commands are checked (own_command_check.hpp). On a fault, the
-  /// last good command is republished, which ends in standstill: the vehicle leaves its plan, and
-  /// the controller treats it as a disturbed one. Plans beyond the lab's limits do not get this
-  /// far: the controller drops them before it announces them. To be called once per list.
+  /// vehicle alone (command_of), as for a vehicle that is elsewhere (rule 6 of plan_in_force.hpp).
+  /// The commands are checked (own_command_check.hpp). On a fault, the last good command is
+  /// republished, which ends in standstill: the vehicle leaves its plan, and the controller treats
+  /// it as a disturbed one. If no point of that command is within vehicle::kStopBound_m of where
+  /// the list shows the vehicle, it is left alone instead. Plans beyond the lab's limits do not get
+  /// this far: the controller drops them before it announces them. To be called once per list.
   [[nodiscard]] AnswerToList answer(const VehicleStateList& list);
 
  private:
+  [[nodiscard]] AnswerToList answer_with(const coordination::Plan* plan,
+                                         const VehicleStateList& list) const;
+  [[nodiscard]] bool may_repeat(const TrajectoryCommand& command,
+                                const VehicleStateList& list) const;
   [[nodiscard]] std::string validate(const AnswerToList& answer) const;
   [[nodiscard]] bool have_all_settled(const controller::Observation& observation) const;
   [[nodiscard]] bool has_settled(VehicleId vehicle) const;

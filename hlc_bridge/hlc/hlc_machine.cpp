@@ -265,10 +265,12 @@ bool HlcMachine::report() {
 /// Also enters it in the report if it is not the plan.
 void HlcMachine::publish_command(coordination::Report& report, const Instant& now) {
   if (ending_.is_asked || leaves_vehicle_alone()) return;
-  if (rules_.spares_lost_vehicle && controller().is_vehicle_lost()) return;
+  const bool stands_off_route = report.reason == coordination::FallbackReason::kOffRoute;
+  if (rules_.spares_lost_vehicle && (controller().is_vehicle_lost() || stands_off_route)) return;
   const AnswerToList answer = core_.answer(current_.list);
-  copies_.publish(answer, now.wall, actions_);
-  notes_.note_fault(step_of(current_.list), answer.fault, actions_);
+  const bool is_to_be_sent = !rules_.spares_lost_vehicle || !answer.command.points.empty();
+  if (is_to_be_sent) copies_.publish(answer, now.wall, actions_);
+  notes_.note_fault(step_of(current_.list), answer, actions_);
   report = with_answer(std::move(report), answer);
 }
 

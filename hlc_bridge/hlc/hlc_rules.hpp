@@ -50,8 +50,10 @@ struct HlcRules {
   /// A controller that is ready and receives no lists logs it. (In logical time a list comes when
   /// everybody is done.)
   bool logs_missing_lists{};
-  /// A vehicle that is not seen is sent nothing (rule 5 of plan_in_force.hpp). In logical time no
-  /// message is lost, so the vehicle drives its plan, and a command is due for every list.
+  /// A vehicle that is not seen, elsewhere, or stands off its route is sent nothing (rules 5 and 6
+  /// of plan_in_force.hpp). In logical time no message is lost, so a vehicle that is not seen
+  /// drives its plan, and a command is due for every list; it has no points for one that is
+  /// elsewhere.
   bool spares_lost_vehicle{};
   /// The stop symbol of the lab domain counts, too, not only the one that the middleware forwards.
   /// (In logical time there are 50 triggers a second and no car that a stop could save.)

@@ -22,6 +22,7 @@ void OperatorNotes::note_step(const controller::Controller& controller,
     actions.error(stuck_line(controller, report.reason));
   }
   is_off_route_logged_ = is_off_route;
+  note_elsewhere(controller, actions);
   is_budget_logged_ |= is_over_budget;
   const bool stays =
       controller.is_cut_off() && report.reason == coordination::FallbackReason::kMissing;
@@ -35,12 +36,21 @@ void OperatorNotes::note_step(const controller::Controller& controller,
   }
 }
 
-void OperatorNotes::note_fault(StepIndex step, const std::string& fault, HlcActions& actions) {
-  if (!fault.empty() && fault != last_fault_) {
-    actions.error(fmt::format("command of step {} not sent, republished the last good one: {}",
-                              step.value, fault));
+void OperatorNotes::note_fault(StepIndex step, const AnswerToList& answer, HlcActions& actions) {
+  if (!answer.fault.empty() && answer.fault != last_fault_) {
+    actions.error(fmt::format("command of step {} not sent, {}: {}", step.value,
+                              answer.command.points.empty()
+                                  ? "nor the last good one, which leads elsewhere"
+                                  : "republished the last good one",
+                              answer.fault));
   }
-  last_fault_ = fault;
+  last_fault_ = answer.fault;
+}
+
+void OperatorNotes::note_elsewhere(const controller::Controller& controller, HlcActions& actions) {
+  const bool is_elsewhere = controller.is_vehicle_elsewhere();
+  if (is_elsewhere && !is_elsewhere_logged_) actions.error(elsewhere_line(controller));
+  is_elsewhere_logged_ = is_elsewhere;
 }
 
 }  // namespace hlc::high_level_controller

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "hlc_bridge/hlc/hlc_core.hpp"
 #include "hlc_bridge/hlc/hlc_events.hpp"
 #include "planner/controller/controller.hpp"
 
@@ -17,17 +18,21 @@ class OperatorNotes {
 
   /// Why the vehicle keeps its former plan, where that may last. An exhausted budget is logged once
   /// in a run; the summary counts how often.
-  /// Also that the vehicle has become stuck (coordination/waiting.hpp), or stays because no other
-  /// controller has been received for kSilentSteps (coordination/missing.hpp).
+  /// Also that the vehicle is elsewhere (rule 6 of plan_in_force.hpp), that it has become stuck
+  /// (coordination/waiting.hpp), or stays because no other controller has been received for
+  /// kSilentSteps (coordination/missing.hpp).
   void note_step(const controller::Controller& controller, const coordination::Report& report,
                  HlcActions& actions);
 
-  /// @param fault  of a step's command (AnswerToList)
-  void note_fault(StepIndex step, const std::string& fault, HlcActions& actions);
+  /// @param answer  the step's
+  void note_fault(StepIndex step, const AnswerToList& answer, HlcActions& actions);
 
  private:
+  void note_elsewhere(const controller::Controller& controller, HlcActions& actions);
+
   std::optional<bool> logged_fit_;  ///< whether the vehicle fits, as last logged
   bool is_off_route_logged_{};
+  bool is_elsewhere_logged_{};
   bool is_budget_logged_{};
   std::uint64_t cut_off_steps_{};  ///< consecutive, in which the vehicle was kept from driving off
   coordination::StuckNotice stuck_;

@@ -46,4 +46,13 @@ std::string stuck_line(const controller::Controller& controller,
                      controller.route().name);
 }
 
+std::string elsewhere_line(const controller::Controller& controller) {
+  const Pose car = controller.measured_vehicle()->pose;
+  const Pose plan = controller.plan_in_force().pose_at(controller.last_step());
+  return fmt::format(
+      "vehicle {} is elsewhere: at ({:.2f}, {:.2f}), its plan at ({:.2f}, {:.2f}); nothing is sent "
+      "to it until it stands, then it is planned from there: put it into the lanes of route {}",
+      id_of(controller), car.x_m, car.y_m, plan.x_m, plan.y_m, controller.route().name);
+}
+
 }  // namespace hlc::high_level_controller

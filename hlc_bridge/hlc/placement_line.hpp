@@ -16,4 +16,8 @@ namespace hlc::high_level_controller {
 [[nodiscard]] std::string stuck_line(const controller::Controller& controller,
                                      coordination::FallbackReason reason);
 
+/// Where a vehicle is that is elsewhere (rule 6 of plan_in_force.hpp), and what the operator is to
+/// do. @pre it is
+[[nodiscard]] std::string elsewhere_line(const controller::Controller& controller);
+
 }  // namespace hlc::high_level_controller

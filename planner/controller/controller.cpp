@@ -112,8 +112,9 @@ coordination::Traffic Controller::observe(const Observation& observation) {
   step_.report.deviation_m = check.deviation_m;
   if (check.is_disturbed) step_.obstacle = coordination::FallbackReason::kDeviation;
   step_.is_vehicle_lost = check.is_lost;
+  step_.is_vehicle_elsewhere = check.is_elsewhere;
   step_.is_disturbed = check.is_disturbed;
-  if (check.is_reanchored) drivable_area_.depart();
+  if (check.is_reanchored) depart_from(plan_in_force().pose_at(now));
   step_.report.subgraph = subgraph().spec().name;
   report_plan_in_force(step_.report);
 
@@ -130,6 +131,13 @@ coordination::Traffic Controller::observe(const Observation& observation) {
     traffic.claim = authority_->claim();
   }
   return traffic;
+}
+
+/// The vehicle stands where its plan did not lead.
+void Controller::depart_from(const Pose& pose) {
+  drivable_area_.depart();
+  tracker_.place(pose, subgraph().automaton().vehicle.footprint);
+  if (authority_) authority_->release();
 }
 
 /// Area reachable on every subgraph that may be planned on, or along the plan in force.

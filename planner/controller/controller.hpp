@@ -172,11 +172,15 @@ class Controller {
 
   [[nodiscard]] bool has_plan() const { return in_force_.has_value(); }
   /// The vehicle was measured in the last step.
-  [[nodiscard]] bool is_vehicle_seen() const {
-    return step_.observation.measured(options_.vehicle) != nullptr;
+  [[nodiscard]] bool is_vehicle_seen() const { return measured_vehicle() != nullptr; }
+  /// As measured in the last step; nullptr: it was not.
+  [[nodiscard]] const coordination::MeasuredVehicle* measured_vehicle() const {
+    return step_.observation.measured(options_.vehicle);
   }
   /// In the last step the vehicle was to be sent nothing (rule 5 of plan_in_force.hpp).
   [[nodiscard]] bool is_vehicle_lost() const { return step_.is_vehicle_lost; }
+  /// In the last step the vehicle was so far from its plan that it was to be sent nothing (rule 6).
+  [[nodiscard]] bool is_vehicle_elsewhere() const { return step_.is_vehicle_elsewhere; }
   /// Nobody was received in the last step: the vehicle does not drive off (missing.hpp).
   [[nodiscard]] bool is_cut_off() const { return neighbours_.is_cut_off(options_.horizon_steps); }
   [[nodiscard]] const coordination::Plan& plan_in_force() const { return in_force_->plan(); }
@@ -202,6 +206,7 @@ class Controller {
     coordination::FallbackReason obstacle{
         coordination::FallbackReason::kNone};  ///< why nothing new may be planned
     bool is_vehicle_lost{};
+    bool is_vehicle_elsewhere{};
     bool is_disturbed{};  ///< DeviationCheck
 
     [[nodiscard]] StepIndex next() const { return {observation.step.value + 1}; }
@@ -209,6 +214,7 @@ class Controller {
 
   void report_plan_in_force(coordination::Report& report) const;
   [[nodiscard]] ConvexPolygon reachable_area_m() const;
+  void depart_from(const Pose& pose);
   [[nodiscard]] bool may_plan() const;
   void extend_authority();
   void respect_predecessors(std::span<const coordination::Prediction> received);
@@ -236,6 +242,7 @@ class Controller {
   void search_candidate();
   bool find_candidate(const search::HorizonProblem& problem, std::size_t budget_share);
   void search_plan(search::HorizonProblem problem, std::size_t budget_share);
+  void keep_in_lane_where_held_up(const search::HorizonProblem& problem, std::size_t budget_share);
   [[nodiscard]] bool makes_room_for(const CoupledVehicle& other) const;
   [[nodiscard]] bool make_room(const search::HorizonProblem& own);
   [[nodiscard]] std::optional<coordination::OccupiedAreas> desired_areas();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner/automaton/deviation.hpp"
+#include "planner/vehicle/lab_limits.hpp"
 
 namespace hlc::controller {
 namespace {
@@ -59,8 +60,10 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   const bool is_outside =
       deviation_m_ > vehicle.safety_margin_m && !is_inside_announced(own->pose, seen_.step);
   is_lost_ = is_lost_ && is_outside;
-  const DeviationCheck result{
-      .deviation_m = deviation_m_, .is_disturbed = is_outside, .is_lost = is_lost_};
+  const DeviationCheck result{.deviation_m = deviation_m_,
+                              .is_disturbed = is_outside,
+                              .is_lost = is_lost_,
+                              .is_elsewhere = is_outside && off_m > vehicle::kStopBound_m};
   if (!is_outside && off_m <= rules_.reanchor_share * vehicle.safety_margin_m) return result;
   const bool stands =
       plan_.end().value + steps_back <= now.value &&

@@ -27,6 +27,7 @@ struct DeviationCheck {
   bool is_disturbed{false};   ///< rule 4 below: nothing new may be planned
   bool is_reanchored{false};  ///< rule 4: the plan is to stand at the vehicle's pose
   bool is_lost{false};        ///< rule 5: no command may be sent
+  bool is_elsewhere{false};   ///< rule 6: the same
 };
 
 /// The plan that a vehicle drives, the areas of it that have been announced to the others, and the
@@ -61,6 +62,12 @@ struct DeviationCheck {
 ///    has received to its end (kept alive by that command's copy), while another one would make it
 ///    leave that plan on an unchecked path. If it is seen on an older plan, it has missed the newer
 ///    ones: the older one is in force again.
+///
+/// 6. A vehicle that is disturbed and farther than vehicle::kStopBound_m from its plan is
+/// elsewhere:
+///    it does not follow any plan from there, and was carried, or is moved by hand or by somebody
+///    else's commands. No command is sent to it (in logical time one without points) until it
+///    stands and the plan is anchored there, by rule 4.
 ///
 /// Where a disturbed vehicle can be: commands may have been lost, so it may drive any plan that was
 /// in force while they were and has not run out since (replaced_plans.hpp), and drop its command

@@ -32,6 +32,11 @@ struct LabLimits {
 /// The lab's follower bounds no curvature below this speed; at standstill a path has none.
 inline constexpr double kMinSpeedForCurvature_mps = 0.1;
 
+/// A vehicle stops by itself where it is farther than this from all points that it is to follow:
+/// where the objective of its follower, a sum over the points of squared distances whose weights
+/// are 17 in all, exceeds 1.5 m^2 (wire contract, 6.4).
+inline constexpr double kStopBound_m = 0.297;
+
 /// Possible faults of timed points.
 enum class TrajectoryFault : std::uint8_t {
   kNotFinite,           ///< a coordinate, velocity or time is not a finite number

@@ -79,6 +79,27 @@ TEST(HlcCore, WhatFailsIsNotSentButTheLastGoodCommandAgain) {
   }
 }
 
+// A car that had been carried out of the lab's area was told for 12 s to stand 1.3 m away.
+TEST(HlcCore, WhereTheLastGoodCommandLeadsElsewhereTheVehicleIsLeftAlone) {
+  HlcCore core(scenario::make_controller(lab_scenario(), {1}));
+  static_cast<void>(core.controller().stand_by(standing_at({10}, start())));
+  static_cast<void>(core.answer(list_at(10)));
+  Pose outside = start();
+  outside.y_m = 7.0;
+  static_cast<void>(core.controller().stand_by(standing_at({11}, outside)));
+  for (const double beside_m : {0.25, 0.35, 1.3}) {
+    VehicleStateList list = list_at(11);
+    list.states.push_back(
+        {.vehicle_id = 1, .create_stamp = list.t_now, .valid_after_stamp = list.t_now});
+    list.states.back().pose = start();
+    list.states.back().pose.x_m += beside_m;
+    const AnswerToList answer = core.answer(list);
+    EXPECT_THAT(answer.fault, HasSubstr("coordinate = 7 m"));
+    EXPECT_EQ(answer.command.points.empty(), beside_m > vehicle::kStopBound_m) << beside_m;
+    EXPECT_EQ(answer.command.create_stamp, list.t_now);
+  }
+}
+
 TEST(HlcCore, APlanThatIsNotSentIsAFallbackInTheReport) {
   const coordination::Report planned{.vehicle = {1}, .status = coordination::StepStatus::kPlanned};
   EXPECT_EQ(with_answer(planned, {}).status, coordination::StepStatus::kPlanned);

@@ -128,6 +128,41 @@ TEST(HlcMachineLoss, AMiddlewareThatIsStartedAgainBeforeTheStartIsAnsweredAgain)
   EXPECT_FALSE(one.exit_code());
 }
 
+// A car that had been carried away was sent its old standstill, as the newest and valid command.
+TEST(HlcMachineLoss, ACarThatIsElsewhereHearsNothingUntilItStandsAndIsPlannedFromThere) {
+  for (const HlcRules& rules : {real_time(), real_time_in_the_lab(), logical_time()}) {
+    DrivenMachine one(rules);
+    one.on(peers());
+    start(one);
+    one.next_list(standing());
+    one.pass(kPeriod / 2);
+    one.forget();
+    std::size_t num_said = 0;
+    for (int i = 0; i < 20; ++i) {
+      one.next_list({controller::east_bound::seen(1, 2.0 + 0.01 * i, 1.3, 0.05)});
+      one.pass(kPeriod / 2);
+      for (const TrajectoryCommand& command : one.take<TrajectoryCommand>()) {
+        EXPECT_EQ(rules.start, StartRule::kTogether) << "nothing is sent";
+        EXPECT_THAT(command.points, IsEmpty()) << "the list is answered";
+      }
+      for (const machine::LogLine& line : one.take<machine::LogLine>()) {
+        num_said += line.text.find(
+                        "vehicle 1 is elsewhere: at (2.00, 1.30), its plan at (0.00, "
+                        "0.00)") != std::string::npos
+                        ? 1U
+                        : 0U;
+      }
+      EXPECT_EQ(num_said, 1U);
+    }
+    one.next_list({controller::east_bound::seen(1, 2.2, 1.3)});
+    const std::vector<TrajectoryCommand> commands = one.take<TrajectoryCommand>();
+    ASSERT_THAT(commands, testing::Not(IsEmpty()));
+    ASSERT_THAT(commands.front().points, testing::Not(IsEmpty()));
+    EXPECT_NEAR(commands.front().points.front().x_m, 2.2, 1e-6);
+    EXPECT_NEAR(commands.front().points.front().y_m, 1.3, 1e-6);
+  }
+}
+
 // In the lab the local domain holds all controllers of a computer.
 TEST(HlcMachineLoss, IsNotDisturbedWhenAnotherControllerOfItsMachineLeaves) {
   DrivenMachine one(real_time());

@@ -487,6 +487,28 @@ TEST_F(Deviation, SeenOnNoPlanItIsLostUntilItStands) {
   EXPECT_NEAR(report.planned_pose.y_m, end.y_m + 0.1, 1e-9);
 }
 
+TEST_F(Deviation, FartherThanTheStopBoundItIsElsewhereUntilItStandsAndPlansOnFromThere) {
+  const StepIndex end = one_->plan_in_force().end();
+  for (std::uint64_t k = 106; k <= end.value + 3; ++k) {
+    for (const double off_m : {0.9, 1.1}) {
+      coordination::MeasuredVehicle car = following(*one_, k);
+      car.pose.y_m += off_m * vehicle::kStopBound_m;
+      car.speed_mps = 0.5;
+      const auto other = std::make_unique<Controller>(*one_);
+      EXPECT_EQ(step(*other, at(k, {car})).reason, coordination::FallbackReason::kDeviation);
+      EXPECT_EQ(other->is_vehicle_elsewhere(), off_m > 1.0) << k;
+      if (off_m > 1.0) *one_ = *other;
+    }
+  }
+  const coordination::MeasuredVehicle carried = seen(1, 4.0, 0.05);
+  const coordination::Report report = step(*one_, at(end.value + 4, {carried}));
+  EXPECT_FALSE(one_->is_vehicle_elsewhere());
+  EXPECT_EQ(report.status, coordination::StepStatus::kPlanned);
+  EXPECT_NEAR(report.planned_pose.x_m, 4.0, 1e-9);
+  EXPECT_GT(one_->plan_in_force().pose_at(one_->plan_in_force().end()).x_m, 4.2);
+  EXPECT_GT(one_->path_s_m(), 3.9);
+}
+
 TEST(Controller, DrivingOutPlansNothingNewUntilItEnds) {
   const auto one = controller(1);
   static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
