@@ -97,9 +97,16 @@ Finding of_middleware(const Received& received) {
   if (received.lists > 0) {
     const std::string lists = fmt::format("middleware: {} state lists", received.lists);
     if (!received.least_list_age_ns) return {Verdict::kGood, lists, ""};
-    const std::string advice = advice_on_clocks(*received.least_list_age_ns);
-    return {advice.empty() ? Verdict::kGood : Verdict::kBad,
-            lists + ", at least " + milliseconds(*received.least_list_age_ns) + " old", advice};
+    const std::int64_t age_ns = *received.least_list_age_ns;
+    if (age_ns < -kClockAhead_ns) {
+      return {Verdict::kBad,
+              lists + ", stamped at least " + milliseconds(-age_ns) + " ahead of this clock",
+              "it runs on this machine: restart it, its clock was set while it ran"};
+    }
+    const bool is_old = age_ns > kClockBehind_ns;
+    return {is_old ? Verdict::kBad : Verdict::kGood,
+            lists + ", at least " + milliseconds(age_ns) + " old",
+            is_old ? "the middleware or this machine is overloaded" : ""};
   }
   return {Verdict::kBad, "middleware: no state list",
           "start it on this machine with the same --middleware_domain (with --transport=lab both "

@@ -63,11 +63,10 @@ struct DeviationCheck {
 ///    leave that plan on an unchecked path. If it is seen on an older plan, it has missed the newer
 ///    ones: the older one is in force again.
 ///
-/// 6. A vehicle that is disturbed and farther than vehicle::kStopBound_m from its plan is
-/// elsewhere:
-///    it does not follow any plan from there, and was carried, or is moved by hand or by somebody
-///    else's commands. No command is sent to it (in logical time one without points) until it
-///    stands and the plan is anchored there, by rule 4.
+/// 6. A disturbed vehicle farther than vehicle::kStopBound_m from its plan is *elsewhere*: it
+/// follows
+///    no plan from there; somebody moves it. No command is sent to it (in logical time one without
+///    points) until it stands and its plan is anchored there, by rule 4.
 ///
 /// Where a disturbed vehicle can be: commands may have been lost, so it may drive any plan that was
 /// in force while they were and has not run out since (replaced_plans.hpp), and drop its command

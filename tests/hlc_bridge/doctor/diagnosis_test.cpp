@@ -117,7 +117,15 @@ TEST(Diagnosis, ComparesTheListsStampsWithTheClock) {
   EXPECT_TRUE(bad_ones({1}, received).empty()) << "one late list is no clock that differs";
   note({.t_now = kNow}, kNow - 40'000'000, received);
   ASSERT_EQ(bad_ones({1}, received).size(), 1U);
-  EXPECT_EQ(bad_ones({1}, received)[0].what, "middleware: 3 state lists, at least -40.0 ms old");
+  EXPECT_EQ(bad_ones({1}, received)[0].what,
+            "middleware: 3 state lists, stamped at least 40.0 ms ahead of this clock");
+
+  Received late = good();
+  late.listened_to_middleware = true;
+  note({.t_now = kNow}, kNow + 400'000'000, late);
+  ASSERT_EQ(bad_ones({1}, late).size(), 1U);
+  EXPECT_EQ(bad_ones({1}, late)[0].what, "middleware: 1 state lists, at least 400.0 ms old");
+  EXPECT_EQ(bad_ones({1}, late)[0].advice, "the middleware or this machine is overloaded");
 
   Received logical = good();
   logical.listened_to_middleware = true;

@@ -79,7 +79,7 @@ TEST(HlcCore, WhatFailsIsNotSentButTheLastGoodCommandAgain) {
   }
 }
 
-// A car that had been carried out of the lab's area was told for 12 s to stand 1.3 m away.
+// A car that had been moved out of the area by hand was commanded for 12 s to stand 1.3 m away.
 TEST(HlcCore, WhereTheLastGoodCommandLeadsElsewhereTheVehicleIsLeftAlone) {
   HlcCore core(scenario::make_controller(lab_scenario(), {1}));
   static_cast<void>(core.controller().stand_by(standing_at({10}, start())));

@@ -128,7 +128,8 @@ TEST(HlcMachineLoss, AMiddlewareThatIsStartedAgainBeforeTheStartIsAnsweredAgain)
   EXPECT_FALSE(one.exit_code());
 }
 
-// A car that had been carried away was sent its old standstill, as the newest and valid command.
+// A car that had been moved away by hand was sent its old standstill, as the newest and valid
+// command.
 TEST(HlcMachineLoss, ACarThatIsElsewhereHearsNothingUntilItStandsAndIsPlannedFromThere) {
   for (const HlcRules& rules : {real_time(), real_time_in_the_lab(), logical_time()}) {
     DrivenMachine one(rules);
@@ -137,7 +138,7 @@ TEST(HlcMachineLoss, ACarThatIsElsewhereHearsNothingUntilItStandsAndIsPlannedFro
     one.next_list(standing());
     one.pass(kPeriod / 2);
     one.forget();
-    std::size_t num_said = 0;
+    std::size_t num_logged = 0;
     for (int i = 0; i < 20; ++i) {
       one.next_list({controller::east_bound::seen(1, 2.0 + 0.01 * i, 1.3, 0.05)});
       one.pass(kPeriod / 2);
@@ -146,13 +147,13 @@ TEST(HlcMachineLoss, ACarThatIsElsewhereHearsNothingUntilItStandsAndIsPlannedFro
         EXPECT_THAT(command.points, IsEmpty()) << "the list is answered";
       }
       for (const machine::LogLine& line : one.take<machine::LogLine>()) {
-        num_said += line.text.find(
-                        "vehicle 1 is elsewhere: at (2.00, 1.30), its plan at (0.00, "
-                        "0.00)") != std::string::npos
-                        ? 1U
-                        : 0U;
+        num_logged += line.text.find(
+                          "vehicle 1 is elsewhere: at (2.00, 1.30), its plan at (0.00, "
+                          "0.00)") != std::string::npos
+                          ? 1U
+                          : 0U;
       }
-      EXPECT_EQ(num_said, 1U);
+      EXPECT_EQ(num_logged, 1U);
     }
     one.next_list({controller::east_bound::seen(1, 2.2, 1.3)});
     const std::vector<TrajectoryCommand> commands = one.take<TrajectoryCommand>();

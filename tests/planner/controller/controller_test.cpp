@@ -500,8 +500,8 @@ TEST_F(Deviation, FartherThanTheStopBoundItIsElsewhereUntilItStandsAndPlansOnFro
       if (off_m > 1.0) *one_ = *other;
     }
   }
-  const coordination::MeasuredVehicle carried = seen(1, 4.0, 0.05);
-  const coordination::Report report = step(*one_, at(end.value + 4, {carried}));
+  const coordination::MeasuredVehicle moved = seen(1, 4.0, 0.05);
+  const coordination::Report report = step(*one_, at(end.value + 4, {moved}));
   EXPECT_FALSE(one_->is_vehicle_elsewhere());
   EXPECT_EQ(report.status, coordination::StepStatus::kPlanned);
   EXPECT_NEAR(report.planned_pose.x_m, 4.0, 1e-9);
