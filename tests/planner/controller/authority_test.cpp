@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <utility>
 
 #include "planner/controller/followed_plan.hpp"
 #include "planner/controller/joint_step.hpp"
@@ -30,8 +29,9 @@ const vehicle::VehicleParameters& car() { return automaton::paper_automaton()->v
 /// A ring of 12.6 m and what vehicles on it plan.
 class Ring {
  public:
-  explicit Ring(road::DrivableRoute route = right_of_way::circle({0.0, 0.0}, 2.0), double s_m = 0.0)
-      : tracker(std::make_shared<const std::vector<road::DrivableRoute>>(1, std::move(route))) {
+  explicit Ring(const road::DrivableRoute& route = right_of_way::circle({0.0, 0.0}, 2.0),
+                double s_m = 0.0)
+      : tracker(std::make_shared<const std::vector<road::DrivableRoute>>(1, route)) {
     tracker.select_route(pose_on(s_m), car().footprint);
   }
 
@@ -151,12 +151,13 @@ TEST_F(AuthorityTest, WhoWasMovedHoldsItsNewPlaceOnly) {
 
 // It gave its exit back, another car took it, and both stood.
 TEST(AuthorityOnACrossing, WhoStandsInAConflictCellKeepsTheRoadAhead) {
+  constexpr std::uint64_t kLast = std::uint64_t{2} * Authority::kPatience_steps;
   std::size_t num_kept = 0;
   for (const double s_m : {0.02, 0.1, 1.0, 1.5}) {
     const Ring eight(right_of_way::figure_eight(), s_m);
     Authority authority(eight.map);
     bool is_given_back = false;
-    for (std::uint64_t step = 1; step <= 2 * Authority::kPatience_steps; ++step) {
+    for (std::uint64_t step = 1; step <= kLast; ++step) {
       authority.begin_step(eight.standing(s_m), {step}, eight.tracker, kReach_m);
       is_given_back |= step > 1 && authority.claim().ahead_m < 0.1;
       authority.extend({1}, {}, {}, {}, 0.0);
