@@ -216,11 +216,15 @@ bool HlcMachine::may_stand_by() const {
   return !yields && core_.may_stand_by(current_.observation, rules_.start);
 }
 
-/// Under kAtTrigger: until the experiment begins, and where the vehicle fits no route, the operator
-/// moves it. Any command would be newer than the lab control centre's, which are valid 300 ms after
-/// they are made.
-bool HlcMachine::leaves_vehicle_alone() const {
-  if (rules_.start != StartRule::kAtTrigger || current_.is_running) return false;
+/// Under kAtTrigger: until the experiment begins, and where the vehicle is off its route, the
+/// operator moves it. Any command would be newer than the lab control centre's, which
+/// are valid 300 ms after they are made.
+bool HlcMachine::leaves_vehicle_alone(const coordination::Report& report) const {
+  if (rules_.start != StartRule::kAtTrigger) return false;
+  if (current_.is_running) {
+    return report.reason == coordination::FallbackReason::kOffRoute ||
+           controller().is_vehicle_lost();
+  }
   return !controller().fits_route() || !has_started() || current_.list.t_now < *start_.time();
 }
 
@@ -262,14 +266,12 @@ bool HlcMachine::report() {
   return false;
 }
 
-/// Also enters it in the report if it is not the plan.
+/// Also enters it in the report if it is not the plan. Without points it only answers the list.
 void HlcMachine::publish_command(coordination::Report& report, const Instant& now) {
-  if (ending_.is_asked || leaves_vehicle_alone()) return;
-  const bool stands_off_route = report.reason == coordination::FallbackReason::kOffRoute;
-  if (rules_.spares_lost_vehicle && (controller().is_vehicle_lost() || stands_off_route)) return;
+  if (ending_.is_asked || leaves_vehicle_alone(report)) return;
   const AnswerToList answer = core_.answer(current_.list);
-  const bool is_to_be_sent = !rules_.spares_lost_vehicle || !answer.command.points.empty();
-  if (is_to_be_sent) copies_.publish(answer, now.wall, actions_);
+  const bool is_due = rules_.start == StartRule::kTogether || !answer.command.points.empty();
+  if (is_due) copies_.publish(answer, now.wall, actions_);
   notes_.note_fault(step_of(current_.list), answer, actions_);
   report = with_answer(std::move(report), answer);
 }

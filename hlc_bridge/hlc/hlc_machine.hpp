@@ -132,7 +132,7 @@ class HlcMachine {
   [[nodiscard]] bool has_started() const { return start_.time().has_value(); }
   [[nodiscard]] bool ends(const Instant& now);
   [[nodiscard]] bool may_stand_by() const;
-  [[nodiscard]] bool leaves_vehicle_alone() const;
+  [[nodiscard]] bool leaves_vehicle_alone(const coordination::Report& report) const;
   void disregard_own_vehicle();
   void enter_experiment();
   void finish(ReportRecord record, const Instant& now);

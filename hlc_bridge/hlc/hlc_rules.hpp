@@ -23,10 +23,12 @@ struct StepDeadlines {
 enum class StartRule : std::uint8_t {
   /// All controllers derive the first step from the same lists: the first list is answered only
   /// when all of them are matched (HlcRules::waits_for_start: or absent for longer than the
-  /// patience), and every list from then on.
+  /// patience), and every list from then on. In logical time no message is lost, so a vehicle that
+  /// is not seen drives its plan; one that is elsewhere is sent a command without points.
   kTogether,
   /// From the start trigger's time on, or later by joining the running experiment. Before that time
-  /// nothing is sent to the vehicle, nor ever to one that fits no route.
+  /// nothing is sent to the vehicle, nor ever to one that fits no route, or stands where no way
+  /// leads onto it, is not seen, or is elsewhere (rules 5 and 6 of plan_in_force.hpp).
   kAtTrigger,
 };
 
@@ -50,11 +52,6 @@ struct HlcRules {
   /// A controller that is ready and receives no lists logs it. (In logical time a list comes when
   /// everybody is done.)
   bool logs_missing_lists{};
-  /// A vehicle that is not seen, elsewhere, or stands off its route is sent nothing (rules 5 and 6
-  /// of plan_in_force.hpp). In logical time no message is lost, so a vehicle that is not seen
-  /// drives its plan, and a command is due for every list; it has no points for one that is
-  /// elsewhere.
-  bool spares_lost_vehicle{};
   /// The stop symbol of the lab domain counts, too, not only the one that the middleware forwards.
   /// (In logical time there are 50 triggers a second and no car that a stop could save.)
   bool stops_on_lab_domain{};

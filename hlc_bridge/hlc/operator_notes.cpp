@@ -40,7 +40,7 @@ void OperatorNotes::note_fault(StepIndex step, const AnswerToList& answer, HlcAc
   if (!answer.fault.empty() && answer.fault != last_fault_) {
     actions.error(fmt::format("command of step {} not sent, {}: {}", step.value,
                               answer.command.points.empty()
-                                  ? "nor the last good one, which leads elsewhere"
+                                  ? "nor anything in its place"
                                   : "republished the last good one",
                               answer.fault));
   }

@@ -41,8 +41,7 @@ std::optional<std::string> StuckNotice::note(const Report& report, double step_s
          ", although its road would be free without the others" +
          (has_moved_ ? ""
                      : "; it has not moved since its controller began: if that was at the start of "
-                       "the run, "
-                       "place the vehicles elsewhere");
+                       "the run, place the vehicles elsewhere");
 }
 
 }  // namespace hlc::coordination

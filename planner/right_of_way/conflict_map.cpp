@@ -38,10 +38,13 @@ ConflictMap::ConflictMap(std::span<const road::DrivableRoute> routes,
   for (Cell& cell : cells_) cell.lanes.clear();
 }
 
-std::size_t ConflictMap::index_at(std::size_t route, double s_m) const {
-  const auto count = static_cast<std::int64_t>(num_cells(route));
-  const std::int64_t cell = std::llround(s_m / cell_m(route)) % count;
-  return static_cast<std::size_t>(cell < 0 ? cell + count : cell);
+std::int64_t ConflictMap::count_at(std::size_t route, double s_m) const {
+  return std::llround(s_m / cell_m(route));
+}
+
+std::size_t ConflictMap::index_of(std::size_t route, std::int64_t count) const {
+  const auto whole_route = static_cast<std::int64_t>(num_cells(route));
+  return static_cast<std::size_t>((count % whole_route + whole_route) % whole_route);
 }
 
 void ConflictMap::add_route(const road::DrivableRoute& route,

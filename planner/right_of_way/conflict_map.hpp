@@ -57,9 +57,10 @@ class ConflictMap {
   [[nodiscard]] double cell_m(std::size_t route) const {
     return lengths_m_[route] / static_cast<double>(routes_[route].size());
   }
-  /// Index on the route of the cell that stands for this arc length, any one counted on over the
-  /// ends of the route.
-  [[nodiscard]] std::size_t index_at(std::size_t route, double s_m) const;
+  /// Cells of a route may be counted on over its ends: the count at an arc length, and the index in
+  /// [0, num_cells) of the cell with that count.
+  [[nodiscard]] std::int64_t count_at(std::size_t route, double s_m) const;
+  [[nodiscard]] std::size_t index_of(std::size_t route, std::int64_t count) const;
   [[nodiscard]] const ConvexPolygon& area_m(std::size_t route, std::size_t cell) const {
     return cells_[routes_[route][cell]].area_m;
   }

@@ -61,29 +61,21 @@ class Grants {
   }
 
  private:
-  [[nodiscard]] CellNumber cell_of(std::size_t route, double s_m) const {
-    return std::llround(s_m / map_.cell_m(route));
-  }
   [[nodiscard]] CellNumber first_of(std::size_t who) const {
     const coordination::LaneClaim& claim = holders_[who].claim;
-    return cell_of(claim.route, claim.place_m);
+    return map_.count_at(claim.route, claim.place_m);
   }
   [[nodiscard]] CellNumber last_of(std::size_t who) const {
     const coordination::LaneClaim& claim = holders_[who].claim;
-    return cell_of(claim.route, claim.place_m + ahead_m_[who]);
+    return map_.count_at(claim.route, claim.place_m + ahead_m_[who]);
   }
-  [[nodiscard]] std::size_t on_route(std::size_t route, CellNumber cell) const {
-    const auto count = static_cast<CellNumber>(map_.num_cells(route));
-    return static_cast<std::size_t>((cell % count + count) % count);
-  }
-
   [[nodiscard]] std::vector<std::uint32_t> held_by(std::size_t who) const {
     const std::size_t route = holders_[who].claim.route;
     const auto whole_route = static_cast<CellNumber>(map_.num_cells(route));
     const CellNumber end = std::min(last_of(who) + 1, first_of(who) + whole_route);
     std::vector<std::uint32_t> cells;
     for (CellNumber cell = first_of(who); cell < end; ++cell) {
-      cells.push_back(map_.cell(route, on_route(route, cell)));
+      cells.push_back(map_.cell(route, map_.index_of(route, cell)));
     }
     return cells;
   }
@@ -96,9 +88,9 @@ class Grants {
   [[nodiscard]] std::vector<std::size_t> next_stretch(std::size_t who) const {
     const std::size_t route = holders_[who].claim.route;
     CellNumber cell = last_of(who) + 1;
-    std::vector<std::size_t> cells{on_route(route, cell)};
+    std::vector<std::size_t> cells{map_.index_of(route, cell)};
     while (map_.is_conflict(route, cells.back()) && cells.size() < map_.num_cells(route)) {
-      cells.push_back(on_route(route, ++cell));
+      cells.push_back(map_.index_of(route, ++cell));
     }
     return cells;
   }
@@ -108,8 +100,8 @@ class Grants {
     const std::size_t route = holders_[who].claim.route;
     const auto whole_route = static_cast<CellNumber>(map_.num_cells(route));
     for (CellNumber cell = first; cell < first + whole_route; ++cell) {
-      if (!is_free(route, on_route(route, cell))) return std::nullopt;
-      if (!map_.is_conflict(route, on_route(route, cell))) return cell;
+      if (!is_free(route, map_.index_of(route, cell))) return std::nullopt;
+      if (!map_.is_conflict(route, map_.index_of(route, cell))) return cell;
     }
     return std::nullopt;
   }

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/hlc/driven_machine.hpp"
+#include "tests/support/folders.hpp"
 
 namespace hlc::high_level_controller::hlc_machine_loss_test {
 namespace {
@@ -162,6 +164,32 @@ TEST(HlcMachineLoss, ACarThatIsElsewhereHearsNothingUntilItStandsAndIsPlannedFro
     EXPECT_NEAR(commands.front().points.front().x_m, 2.2, 1e-6);
     EXPECT_NEAR(commands.front().points.front().y_m, 1.3, 1e-6);
   }
+}
+
+TEST(HlcMachineLoss, ACarThatHasNoWayOntoItsRouteIsLeftToTheOperatorUntilItHas) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_three_cars.yaml"});
+  const Pose start_pose = scenario::measured_start(scenario, scenario.vehicles.front());
+  const auto standing_at = [](const Pose& pose) {
+    return std::vector{coordination::MeasuredVehicle{.vehicle = {1}, .pose = pose}};
+  };
+  DrivenMachine one(real_time_in_the_lab(), scenario::make_controller(scenario, {1}));
+  one.on(peers());
+  start(one, standing_at(start_pose));
+  one.next_list(standing_at(start_pose));
+  Pose off = start_pose;
+  off.x_m = 2.25;
+  off.y_m = 3.0;
+  for (int i = 0; i < 20; ++i) {
+    one.pass(kPeriod / 2);
+    one.forget();
+    one.next_list(standing_at(off));
+  }
+  EXPECT_EQ(one.take<ReportRecord>().back().report.reason,
+            coordination::FallbackReason::kOffRoute);
+  EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty());
+  for (int i = 0; i < 2; ++i) one.next_list(standing_at(start_pose));
+  EXPECT_THAT(one.take<TrajectoryCommand>(), testing::Not(IsEmpty()));
 }
 
 // In the lab the local domain holds all controllers of a computer.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <random>
 
 #include "planner/controller/followed_plan.hpp"
@@ -162,7 +163,7 @@ TEST(AuthorityOnACrossing, WhoStandsInAConflictCellKeepsTheRoadAhead) {
       is_given_back |= step > 1 && authority.claim().ahead_m < 0.1;
       authority.extend({1}, {}, {}, {}, 0.0);
     }
-    const bool is_conflict = eight.map->is_conflict(0, eight.map->index_at(0, s_m));
+    const bool is_conflict = eight.map->is_conflict(0, eight.map->index_of(0, eight.map->count_at(0, s_m)));
     EXPECT_NE(is_given_back, is_conflict) << s_m;
     num_kept += is_conflict ? 1U : 0U;
   }
@@ -257,11 +258,14 @@ class ControllerWithAuthority : public testing::Test {
   }
 
   /// One step. Returns what is claimed in it: the result of the step before.
-  LaneClaim step(Other other) {
+  /// @param moved_to_m  where the vehicle stands instead of following its plan
+  LaneClaim step(Other other, std::optional<double> moved_to_m = {}) {
     ++step_;
     Observation observation{.step = {step_}, .active = {{1}, {2}}};
     observation.states = {
-        on_its_plan(one_, {step_}),
+        moved_to_m ? as_measured({1}, {.pose = ring_.pose_on(*moved_to_m)},
+                                 *automaton::paper_automaton())
+                   : on_its_plan(one_, {step_}),
         as_measured({2}, {.pose = ring_.pose_on(kOther_m)}, *automaton::paper_automaton())};
     if (other == Other::kUnseen) observation.states.pop_back();
     observation.present = {{1}};
@@ -314,6 +318,21 @@ TEST_F(ControllerWithAuthority, AMissingVehicleThatStandsForGoodIsBlockedArea) {
   EXPECT_LT(farthest_m, kOther_m - car().footprint.length_m);
   EXPECT_GT(farthest_m, kOther_m - car().footprint.length_m - 0.15);
   EXPECT_GT(claim.waiting_steps, 5U);
+}
+
+// It claimed a wrong place for a step, or the road up to where it had come from.
+TEST_F(ControllerWithAuthority, AVehicleThatWasMovedClaimsItsNewPlaceOnlyOnceItIsPlannedThere) {
+  for (const double moved_to_m : {3.0, 2.0}) {
+    for (int i = 0; i < 5; ++i) static_cast<void>(step(Other::kReceived));
+    LaneClaim claim;
+    for (int i = 0; i < 20; ++i) {
+      claim = step(Other::kReceived, moved_to_m);
+      if (std::abs(claim.place_m - moved_to_m) < 0.05) break;
+    }
+    EXPECT_NEAR(claim.place_m, moved_to_m, 0.05);
+    EXPECT_EQ(claim.ahead_m, 0.0);
+    EXPECT_EQ(one_.plan_in_force().first(), StepIndex{step_});
+  }
 }
 
 /// Steps cars of the lab, and grants beside them.
