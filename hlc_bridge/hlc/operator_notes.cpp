@@ -39,9 +39,8 @@ void OperatorNotes::note_step(const controller::Controller& controller,
 void OperatorNotes::note_fault(StepIndex step, const AnswerToList& answer, HlcActions& actions) {
   if (!answer.fault.empty() && answer.fault != last_fault_) {
     actions.error(fmt::format("command of step {} not sent, {}: {}", step.value,
-                              answer.command.points.empty()
-                                  ? "nor anything in its place"
-                                  : "republished the last good one",
+                              answer.command.points.empty() ? "nor anything in its place"
+                                                            : "republished the last good one",
                               answer.fault));
   }
   last_fault_ = answer.fault;

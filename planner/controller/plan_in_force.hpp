@@ -64,8 +64,8 @@ struct DeviationCheck {
 ///    ones: the older one is in force again.
 ///
 /// 6. A disturbed vehicle farther than vehicle::kStopBound_m from its plan is *elsewhere*: from
-///    there it follows no plan, so somebody moves it. No command is sent to it (in logical time one without
-///    points) until it stands and its plan is anchored there, by rule 4.
+///    there it follows no plan, so somebody moves it. No command is sent to it (in logical time one
+///    without points) until it stands and its plan is anchored there, by rule 4.
 ///
 /// Where a disturbed vehicle can be: commands may have been lost, so it may drive any plan that was
 /// in force while they were and has not run out since (replaced_plans.hpp), and drop its command

@@ -185,8 +185,7 @@ TEST(HlcMachineLoss, ACarThatHasNoWayOntoItsRouteIsLeftToTheOperatorUntilItHas) 
     one.forget();
     one.next_list(standing_at(off));
   }
-  EXPECT_EQ(one.take<ReportRecord>().back().report.reason,
-            coordination::FallbackReason::kOffRoute);
+  EXPECT_EQ(one.take<ReportRecord>().back().report.reason, coordination::FallbackReason::kOffRoute);
   EXPECT_THAT(one.take<TrajectoryCommand>(), IsEmpty());
   for (int i = 0; i < 2; ++i) one.next_list(standing_at(start_pose));
   EXPECT_THAT(one.take<TrajectoryCommand>(), testing::Not(IsEmpty()));

@@ -163,7 +163,8 @@ TEST(AuthorityOnACrossing, WhoStandsInAConflictCellKeepsTheRoadAhead) {
       is_given_back |= step > 1 && authority.claim().ahead_m < 0.1;
       authority.extend({1}, {}, {}, {}, 0.0);
     }
-    const bool is_conflict = eight.map->is_conflict(0, eight.map->index_of(0, eight.map->count_at(0, s_m)));
+    const bool is_conflict =
+        eight.map->is_conflict(0, eight.map->index_of(0, eight.map->count_at(0, s_m)));
     EXPECT_NE(is_given_back, is_conflict) << s_m;
     num_kept += is_conflict ? 1U : 0U;
   }
@@ -263,9 +264,9 @@ class ControllerWithAuthority : public testing::Test {
     ++step_;
     Observation observation{.step = {step_}, .active = {{1}, {2}}};
     observation.states = {
-        moved_to_m ? as_measured({1}, {.pose = ring_.pose_on(*moved_to_m)},
-                                 *automaton::paper_automaton())
-                   : on_its_plan(one_, {step_}),
+        moved_to_m
+            ? as_measured({1}, {.pose = ring_.pose_on(*moved_to_m)}, *automaton::paper_automaton())
+            : on_its_plan(one_, {step_}),
         as_measured({2}, {.pose = ring_.pose_on(kOther_m)}, *automaton::paper_automaton())};
     if (other == Other::kUnseen) observation.states.pop_back();
     observation.present = {{1}};
