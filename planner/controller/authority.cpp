@@ -42,9 +42,7 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
   const double moved_m = is_continued ? std::remainder(place_m - claim_.place_m, length_m) : 0.0;
   const double held_m = is_continued ? claim_.ahead_m - moved_m : 0.0;
   const bool stands = is_continued && std::abs(moved_m) < kStands_m;
-  const bool is_unused =
-      stands && held_m > std::max(plans_m, 0.0) + map_->cell_m(route) &&
-      !map_->is_conflict(route, map_->index_of(route, map_->count_at(route, place_m)));
+  const bool is_unused = stands && held_m > std::max(plans_m, 0.0) + map_->cell_m(route);
   unused_steps_ = is_unused ? unused_steps_ + 1 : 0;
   const bool gives_back = unused_steps_ == kPatience_steps;
   if (gives_back) unused_steps_ = 0;

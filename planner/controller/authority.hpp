@@ -17,7 +17,7 @@ namespace hlc::controller {
 /// How far one vehicle may go on the shared road, by the right of way among all (grant.hpp). A
 /// value; the map is shared.
 ///
-/// A vehicle that has stood for kPatience_steps with road of its own in front of it, not in a
+/// A vehicle that has stood for kPatience_steps with road of its own in front of it, also in a
 /// conflict cell, gives that road back, and its waiting starts again: something that the cells do
 /// not know of is in its way, perhaps a vehicle that waits for the same road and stands some
 /// millimetres too near to be passed.
