@@ -24,6 +24,8 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --simulated_time BOOL   true: logical time, as fast as possible (default); false: real time
   --noise_seed N          measurement noise of the simulated cars from this seed (default: none)
   --gains_scale X         gains of the simulated cars' followers (default 1)
+  --stamps NAME           of the simulated cars: exact, or lab: 20 ms early and with the lab's tracking errors (default:
+                          as the scenario's lab)
   --on_death WHAT         stop (default): when a process dies, the others make a minimal-risk stop and the run ends;
                           continue (real time): the run continues, and a killed controller may be restarted
                           (launch_scripts/vehicle.sh --id N --only hlc --out DIR)
@@ -49,7 +51,7 @@ fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 
 scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
-simulated_time=true noise_seed="" gains_scale="" on_death=stop transport=loopback dds_domain="" out="" preset=release
+simulated_time=true noise_seed="" gains_scale="" stamps="" on_death=stop transport=loopback dds_domain="" out="" preset=release
 bin="" build=true share=""
 startup_timeout_s=20
 while (($#)); do
@@ -69,7 +71,7 @@ while (($#)); do
   [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a new or an empty folder"
   case "$name" in
     scenario | profile | engine | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
-      simulated_time | noise_seed | gains_scale | on_death | transport | dds_domain | out | preset | bin | \
+      simulated_time | noise_seed | gains_scale | stamps | on_death | transport | dds_domain | out | preset | bin | \
       share | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
@@ -93,6 +95,7 @@ in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 [[ -z $noise_seed ]] || noise_seed=$((10#$noise_seed)) # 010 is ten
 [[ -z $seed ]] || seed=$((10#$seed))
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
+[[ -z $stamps || $stamps == exact || $stamps == lab ]] || fail "--stamps = $stamps, must be one of exact, lab"
 case "$preset" in
   release | debug | asan | tsan) ;;
   *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
@@ -125,6 +128,7 @@ if [[ -n $dump_problems ]]; then
     fail "--dump-problems with policy $driven_by requires --policy none: a problem names a subgraph of the automaton's file"
 fi
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
+[[ -n $stamps ]] || stamps=$(awk 'NR == 1 {print $3}' <<<"$starts")
 
 # With more than 4 cars the processes of each cost more than they compute.
 if [[ -z $share ]]; then
@@ -218,6 +222,7 @@ steps: $steps
 simulated_time: $simulated_time
 noise_seed: ${noise_seed:-null}
 gains_scale: ${gains_scale:-1}
+stamps: $stamps
 on_death: $on_death
 transport: $transport
 share: $share
@@ -271,7 +276,7 @@ for group in "${groups[@]}"; do
     [[ -z $noise_seed ]] || seeds+=${seeds:+,}$((noise_seed + id))
   done
   vehicle=("${flags[@]}" --on_death "$on_death" --id "$group" --bin "$bin" "${choices[@]}"
-    --startup_timeout_s $((startup_timeout_s + 10)) --pose "$pose")
+    --startup_timeout_s $((startup_timeout_s + 10)) --pose "$pose" --stamps "$stamps")
   [[ -z $seeds ]] || vehicle+=(--noise_seed "$seeds")
   [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
   [[ -z $dump_problems ]] || vehicle+=(--dump-problems "$dump_problems")

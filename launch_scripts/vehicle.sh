@@ -34,6 +34,8 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --pose X,Y,YAW          initial pose of the simulated car, of each of several (default: the scenario's start)
   --noise_seed N          measurement noise from this seed, one for each of several (default: none)
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
+  --stamps NAME           of the simulated car: exact, or lab: 20 ms early and with the lab's tracking errors (default: as
+                          the scenario's lab)
   --on_death WHAT         stop (default): a process that is killed fails the run; continue: it may be restarted
   --only NAME             restart one process: hlc, middleware or vehicle. Omitted flags are those with
                           which the vehicle of the run in --out was started; a car keeps its last pose.
@@ -51,10 +53,10 @@ id="" scenario="" profile=default engine="" dump_problems="" subgraph="" policy=
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
-noise_seed="" gains_scale="" on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
+noise_seed="" gains_scale="" stamps="" on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
 kept_flags=(id scenario profile engine dump_problems subgraph policy map cars seed routes simulated_time transport
   discovery_mode discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
-  controller_domain pose noise_seed gains_scale on_death bin startup_timeout_s shared_by)
+  controller_domain pose noise_seed gains_scale stamps on_death bin startup_timeout_s shared_by)
 take_flags() {
   local name value
   while (($#)); do
@@ -108,6 +110,7 @@ for name in cars seed dds_domain middleware_domain controller_domain startup_tim
 done
 for one in ${noise_seed//,/ }; do whole_number noise_seed "$one"; done
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
+[[ -z $stamps || $stamps == exact || $stamps == lab ]] || fail "--stamps = $stamps, must be one of exact, lab"
 [[ -n $scenario ]] || fail "--scenario is missing"
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
@@ -154,8 +157,11 @@ if [[ $only == vehicle && -s $out/vehicle_${ids[0]}.csv ]]; then
   done)
   ((${#ids[@]} != $(wc -l <<<"$last"))) || pose=$(paste -sd, <<<"${last:-$pose}")
 fi
-if [[ -z $pose && $only != hlc && $only != middleware ]]; then
+if [[ (-z $pose || -z $stamps) && $only != hlc && $only != middleware ]]; then
   starts=$("$bin/show_scenario" "${choices[@]}" --starts) || exit 2
+  [[ -n $stamps ]] || stamps=$(awk 'NR == 1 {print $3}' <<<"$starts")
+fi
+if [[ -z $pose && $only != hlc && $only != middleware ]]; then
   for one in "${ids[@]}"; do
     start=$(awk -v id="$one" '$1 == id {print $2}' <<<"$starts")
     [[ -n $start ]] || fail "--id = $one, must be one of $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
@@ -171,6 +177,7 @@ done
 vehicle=(--vehicle_ids="$id" --pose="$pose" --record="$out/vehicle_{id}.csv" "${appends[@]}")
 [[ -z $noise_seed ]] || vehicle+=(--noise_seed="$noise_seed")
 [[ -z $gains_scale ]] || vehicle+=(--gains_scale="$gains_scale")
+[[ -z $stamps ]] || vehicle+=(--stamps="$stamps")
 controller=("${choices[@]}")
 [[ -z $controller_domain ]] || controller+=(--controller_domain="$controller_domain")
 [[ -z $controller_peers ]] || controller+=(--controller_peers="$controller_peers")

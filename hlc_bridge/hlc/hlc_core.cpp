@@ -35,7 +35,8 @@ std::string HlcCore::validate(const VehicleStateList& list) const {
 }
 
 std::optional<controller::Observation> HlcCore::observe(const VehicleStateList& list) {
-  controller::Observation observation = observation_of(list);
+  const std::optional<vehicle::LabLimits>& lab = controller_->options().lab;
+  controller::Observation observation = observation_of(list, lab ? lab->pose_lead_s : 0.0);
   if (last_step_ && observation.step <= *last_step_) return std::nullopt;
   last_step_ = observation.step;
   return observation;

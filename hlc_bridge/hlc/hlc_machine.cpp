@@ -192,6 +192,7 @@ bool HlcMachine::prepare(const Instant& now) {
   current_.reconfiguring_ns = cpu_time_() - from;
   if (current_.is_running) {
     notes_.note_placement(controller, actions_);
+    notes_.note_pose_lead(controller, observation, actions_);
     controller.set_minimal_risk_stop(life_.is_minimal_risk_stop());
     step_.begin(current_.list, observation, now, actions_);
     phase_ = Phase::kStepping;

@@ -26,7 +26,7 @@ bool is_usable(const VehicleState& state, Nanoseconds t_now) {
          t_now - state.create_stamp <= kMaxStateAge;
 }
 
-controller::Observation observation_of(const VehicleStateList& list) {
+controller::Observation observation_of(const VehicleStateList& list, double pose_lead_s) {
   controller::Observation observation{.step = step_of(list)};
   const Nanoseconds step_start = observation.step.value * period_of(list);
   for (const std::int32_t id : list.active_vehicle_ids) {
@@ -40,11 +40,12 @@ controller::Observation observation_of(const VehicleStateList& list) {
   for (const VehicleState& state : list.states) {
     if (!is_usable(state, list.t_now)) continue;
     const double age_s =
-        1e-9 * static_cast<double>(static_cast<std::int64_t>(step_start - state.create_stamp));
+        1e-9 * static_cast<double>(static_cast<std::int64_t>(step_start - state.create_stamp)) -
+        pose_lead_s;
     observation.states.push_back({.vehicle = {state.vehicle_id},
                                   .pose = state.pose,
                                   .speed_mps = state.speed_mps,
-                                  .age_s = std::max(age_s, 0.0)});
+                                  .age_s = age_s});
   }
   std::ranges::sort(observation.states, {}, &coordination::MeasuredVehicle::vehicle);
   return observation;

@@ -14,6 +14,12 @@ void OperatorNotes::note_placement(const controller::Controller& controller, Hlc
                    : machine::error(placement_line(controller)));
 }
 
+void OperatorNotes::note_pose_lead(const controller::Controller& controller,
+                                   const controller::Observation& observation,
+                                   HlcActions& actions) {
+  if (const auto line = pose_lead_.note(controller, observation)) actions.warn(*line);
+}
+
 void OperatorNotes::note_step(const controller::Controller& controller,
                               const coordination::Report& report, HlcActions& actions) {
   const bool is_off_route = report.reason == coordination::FallbackReason::kOffRoute;

@@ -5,6 +5,7 @@
 
 #include "hlc_bridge/hlc/hlc_core.hpp"
 #include "hlc_bridge/hlc/hlc_events.hpp"
+#include "hlc_bridge/hlc/pose_lead.hpp"
 #include "planner/controller/controller.hpp"
 
 namespace hlc::high_level_controller {
@@ -15,6 +16,10 @@ class OperatorNotes {
   /// Before the start: where the vehicle stands, once it is seen, and again whenever it begins or
   /// ceases to fit its route.
   void note_placement(const controller::Controller& controller, HlcActions& actions);
+
+  /// Before a step of the experiment: a wrong pose lead (pose_lead.hpp).
+  void note_pose_lead(const controller::Controller& controller,
+                      const controller::Observation& observation, HlcActions& actions);
 
   /// Why the vehicle keeps its former plan, where that may last. An exhausted budget is logged once
   /// in a run; the summary counts how often.
@@ -37,6 +42,7 @@ class OperatorNotes {
   std::uint64_t cut_off_steps_{};  ///< consecutive, in which the vehicle was kept from driving off
   coordination::StuckNotice stuck_;
   std::string last_fault_;
+  PoseLeadCheck pose_lead_;
 };
 
 }  // namespace hlc::high_level_controller

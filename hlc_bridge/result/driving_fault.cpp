@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace hlc::result {
 
 std::string danger_of(const RunSummary& summary) {
@@ -18,10 +20,11 @@ std::string danger_of(const RunSummary& summary) {
 
 std::string driving_fault(const RunSummary& summary) {
   if (std::string danger = danger_of(summary); !danger.empty()) return danger;
-  const double margin_m = summary.description.automaton->automaton().vehicle.safety_margin_m;
+  const RunDescription& run = summary.description;
+  const double margin_m = run.automaton->automaton().vehicle.safety_margin_m;
   for (const VehicleSummary& vehicle : summary.vehicles) {
     const double deviation_m = vehicle.deviation_max_m.value_or(0.0);
-    if (deviation_m <= margin_m) continue;
+    if (deviation_m <= std::max(margin_m, run.tracking_error_max_m)) continue;
     return fmt::format(
         "vehicle {} deviated by up to {:.1f} mm from its plan, more than the safety margin of "
         "{:.1f} mm",

@@ -13,8 +13,9 @@ namespace hlc::result {
 [[nodiscard]] std::string danger_of(const RunSummary& summary);
 
 /// Why a run was driven badly: a danger, or a vehicle was farther from its plan than the safety
-/// margin, even if within its announced areas: then it was no danger, but did not drive its
-/// plan (subgraph A demands more than the car can do, which its controller predicts).
+/// margin and than an undisturbed one of its lab (RunDescription::tracking_error_max_m), even if
+/// within its announced areas: then it was no danger, but did not drive its plan (subgraph A
+/// demands more than the car can do, which its controller predicts).
 [[nodiscard]] std::string driving_fault(const RunSummary& summary);
 
 }  // namespace hlc::result

@@ -24,6 +24,7 @@ RunDescription describe(const scenario::Scenario& scenario,
   description.policy = scenario.policy;
   description.horizon_steps = scenario.horizon_steps;
   description.step_s = automaton.step_s;
+  if (scenario.lab) description.tracking_error_max_m = scenario.lab->tracking_error_max_m;
   description.automaton = scenario.subgraph;
   for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     description.vehicles.push_back(

@@ -36,6 +36,8 @@ struct RunDescription {
   std::size_t horizon_steps{};
   double step_s{};
   std::vector<VehicleDescription> vehicles;
+  /// LabLimits::tracking_error_max_m of the scenario's lab; 0: not known.
+  double tracking_error_max_m{};
   /// The automaton of the plans: gives the planned poses between steps. None: only those at the
   /// steps.
   std::shared_ptr<const automaton::Subgraph> automaton;

@@ -42,11 +42,14 @@ void print_table(const hlc::scenario::Scenario& scenario) {
   }
 }
 
-/// One line per vehicle: id and start pose of the vehicle (yaw), for `vehicle_sim --pose`.
+/// One line per vehicle: id, start pose of the vehicle (yaw) for `vehicle_sim --pose`, and its
+/// `--stamps`.
 void print_starts(const hlc::scenario::Scenario& scenario) {
+  const char* stamps = hlc::scenario::has_early_stamps(scenario) ? "lab" : "exact";
   for (const hlc::scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     const hlc::Pose pose = hlc::scenario::measured_start(scenario, vehicle);
-    std::printf("%d %.17g,%.17g,%.17g\n", vehicle.id.value, pose.x_m, pose.y_m, pose.heading_rad);
+    std::printf("%d %.17g,%.17g,%.17g %s\n", vehicle.id.value, pose.x_m, pose.y_m, pose.heading_rad,
+                stamps);
   }
 }
 
@@ -62,7 +65,8 @@ int main(int argc, char** argv) {
   hlc::apps::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::apps::whole(1, 100000));
-  app.add_flag("--starts", starts, "print only `id x,y,yaw` per vehicle (the next two may follow)");
+  app.add_flag("--starts", starts,
+               "print only `id x,y,yaw stamps` per vehicle (the next two may follow)");
   app.add_flag("--print_steps", steps, "print only the number of steps");
   app.add_flag("--print_policy", policy, "print only the name of the policy in force, or none");
   hlc::apps::declare_output(app, plot,

@@ -140,7 +140,9 @@ void Controller::depart_from(const Pose& pose) {
   if (authority_) authority_->release();
 }
 
-/// Area reachable on every subgraph that may be planned on, or along the plan in force.
+/// Area reachable on every subgraph that may be planned on, or along the plan in force, also from
+/// where the vehicle really is: beside its plan it needs areas that reach beyond those of the plan,
+/// also to stand where it stands.
 ConvexPolygon Controller::reachable_area_m() const {
   const coordination::Traffic& traffic = step_.traffic;
   std::vector<ConvexPolygon> reach;
@@ -157,6 +159,11 @@ ConvexPolygon Controller::reachable_area_m() const {
   std::ranges::for_each(traffic.running.areas_m, add);
   add(traffic.running.final_area_m);
   std::ranges::for_each(reachable.begin() + 1, reachable.end(), add_reachable);
+  if (in_force_->deviates()) {
+    const coordination::OccupiedAreas driven = in_force_->areas_of(in_force_->base(), step_.next());
+    std::ranges::for_each(driven.areas_m, add);
+    add(driven.final_area_m);
+  }
   return convex_hull(reach);
 }
 

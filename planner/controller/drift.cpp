@@ -60,6 +60,14 @@ Driven driven(const Driven& at, const Point& from, const Point& to,
 
 }  // namespace
 
+SeenAt seen_at(const coordination::MeasuredVehicle& measured, StepIndex now, double step_s) {
+  const auto steps_back = static_cast<std::int64_t>(std::ceil(measured.age_s / step_s));
+  const auto step = static_cast<std::int64_t>(now.value) - steps_back;
+  return {.step = {static_cast<std::uint64_t>(std::max<std::int64_t>(step, 0))},
+          .time_s = static_cast<double>(steps_back) * step_s - measured.age_s,
+          .pose = measured.pose};
+}
+
 std::vector<PredictedInstant> predicted_drive(const coordination::Plan& plan, const SeenAt& seen,
                                               StepIndex until,
                                               const automaton::UniversalAutomaton& automaton) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "planner/coordination/missing.hpp"
 #include "planner/coordination/plan.hpp"
 
 namespace hlc::controller {
@@ -10,6 +11,11 @@ struct SeenAt {
   double time_s{};
   Pose pose;  ///< heading_rad is the yaw
 };
+
+/// Where and when the state list of step `now` shows a vehicle. Its age may be negative: with a
+/// lead (LabLimits::pose_lead_s), or in a list that comes late in its step.
+[[nodiscard]] SeenAt seen_at(const coordination::MeasuredVehicle& measured, StepIndex now,
+                             double step_s);
 
 /// A predicted instant of a drive.
 struct PredictedInstant {

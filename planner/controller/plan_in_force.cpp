@@ -35,7 +35,6 @@ PlanInForce::PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> au
 DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle* own,
                                             StepIndex now) {
   const vehicle::VehicleParameters& vehicle = automaton_->vehicle;
-  const double step_s = automaton_->step_s;
   moved_.reset();
   outside_area_m_ = {};
   deviation_m_ = 0.0;
@@ -47,12 +46,10 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   }
   replaced_.forget(now);
   seen_speed_mps_ = own->speed_mps;
-  const auto steps_back = static_cast<std::uint64_t>(std::ceil(own->age_s / step_s));
+  const SeenAt seen = seen_at(*own, now, automaton_->step_s);
   seen_ = {.step = now, .time_s = 0.0, .pose = own->pose};
-  if (now.value < plan_.first().value + steps_back)
-    return {};  // just anchored at its measured pose
-  seen_.step.value -= steps_back;
-  seen_.time_s = static_cast<double>(steps_back) * step_s - own->age_s;
+  if (seen.step < plan_.first()) return {};  // just anchored at its measured pose
+  seen_ = seen;
   if (is_lost_) return_to_driven_plan(now);
   const vehicle::State planned = plan_.state_at(seen_.step, seen_.time_s, vehicle);
   deviation_m_ = deviation_from(plan_);
@@ -64,9 +61,11 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
                               .is_disturbed = is_outside,
                               .is_lost = is_lost_,
                               .is_elsewhere = is_outside && off_m > vehicle::kStopBound_m};
-  if (!is_outside && off_m <= rules_.reanchor_share * vehicle.safety_margin_m) return result;
+  const double reanchor_m =
+      std::max(rules_.reanchor_share * vehicle.safety_margin_m, rules_.tracking_error_max_m);
+  if (!is_outside && off_m <= reanchor_m) return result;
   const bool stands =
-      plan_.end().value + steps_back <= now.value &&
+      plan_.end() <= seen_.step &&
       std::abs(own->speed_mps) <= coordination::MissingVehicleRules{}.standing_speed_mps;
   if (is_outside && stands) {
     ReplacedPlans replaced = std::move(replaced_);
@@ -175,7 +174,7 @@ double PlanInForce::tolerated_m() const {
 }
 
 bool PlanInForce::may_drift(const coordination::Plan& candidate) const {
-  if (deviation_m_ > tolerated_m()) return true;
+  if (deviates()) return true;
   for (StepIndex step = seen_.step; step <= candidate.end(); ++step.value) {
     if (is_at_limit_[candidate.trim_at(step).index]) return true;
   }

@@ -11,11 +11,14 @@
 
 namespace hlc::controller {
 
-/// Shares of the safety margin that decide on the reaction to a deviation from the plan.
+/// What decides on the reaction to a deviation from the plan; the shares are of the safety margin.
 struct DeviationRules {
-  /// If the measured position deviates from the plan by more than this, the next plan starts from
-  /// the vehicle's real pose.
+  /// If the measured position deviates from the plan by more than this and by more than
+  /// `tracking_error_max_m`, the next plan starts from the vehicle's real pose.
   double reanchor_share{0.5};
+  /// Position error of an undisturbed vehicle (LabLimits): it vanishes by itself, faster than a
+  /// plan that jumps after it would let it.
+  double tracking_error_max_m{};
   /// A predicted drift (drift.hpp) up to this needs no larger areas; the rest of the margin is for
   /// the error of the prediction.
   double tolerated_drift_share{0.5};
@@ -40,16 +43,17 @@ struct DeviationCheck {
 ///
 /// 1. A swept area contains a vehicle that deviates by m at most, in position and heading together
 ///    (planner/automaton/deviation.hpp). Where it has steering to spare it does not deviate more:
-///    measured 7.7 mm at most, m = 10 mm.
+///    measured 7.7 mm at most, m = 10 mm. The lab's vehicles do, at starts and stops
+///    (`tracking_error_max_m`), and are inside their announced areas nevertheless, m = 20 mm.
 /// 2. The areas of a plan that may lead it farther (trims near the steering limit, or a vehicle
 ///    that deviates already) are those of its predicted drive to the end of the plan (drift.hpp).
 ///    If they meet anything, a plan without those trims is searched instead. So the old plan also
 ///    remains safe to its end, however many steps no new one comes into force.
-/// 3. A vehicle that deviates by more than `reanchor_share` of m plans on from its real pose: the
-///    plan in force is moved rigidly onto the measured pose, and the new plan continues it. The
-///    current step has been announced already, so this is done only if the predicted drive stays
-///    inside the area announced for it. The new plan is a plan like any other: announced, checked,
-///    agreed.
+/// 3. A vehicle that deviates by more than `reanchor_share` of m, and by more than undisturbed ones
+///    do (`tracking_error_max_m`), plans on from its real pose: the plan in force is moved rigidly
+///    onto the measured pose, and the new plan continues it. The current step has been announced
+///    already, so this is done only if the predicted drive stays inside the area announced for it.
+///    The new plan is a plan like any other: announced, checked, agreed.
 /// 4. A vehicle that deviates by more than m and is outside the area announced for that time, or
 ///    that is no longer seen, was disturbed, without the others' knowledge. It plans nothing new
 ///    and drives its plan to the end; from this step on its traffic announces all areas in which it
@@ -125,6 +129,10 @@ class PlanInForce {
   /// within the margin: it is on the plan, and all trims have steering to spare. Valid after
   /// `check_deviation`.
   [[nodiscard]] bool may_drift(const coordination::Plan& candidate) const;
+
+  /// True if the vehicle deviates by more than is tolerated: every plan that continues `base()` may
+  /// drift. Valid after `check_deviation`.
+  [[nodiscard]] bool deviates() const { return deviation_m_ > tolerated_m(); }
 
   /// Areas of a plan that continues `base()`, from t(next) on, with its drift (rule 2).
   [[nodiscard]] coordination::OccupiedAreas areas_of(const coordination::Plan& candidate,

@@ -10,7 +10,7 @@ struct MeasuredVehicle {
   VehicleId vehicle;
   Pose pose;  ///< heading_rad is the vehicle's yaw, not the planner's heading
   double speed_mps{};
-  double age_s{};  ///< t(k) minus the time at which the state was measured
+  double age_s{};  ///< t(k) minus the time of the pose; negative: of a time after t(k)
 };
 
 /// Older states are ignored.

@@ -12,6 +12,15 @@
 #include "planner/scenario/scenario_values.hpp"
 
 namespace hlc::scenario {
+namespace {
+
+controller::DeviationRules deviation_rules(const std::optional<vehicle::LabLimits>& lab) {
+  controller::DeviationRules rules;
+  if (lab) rules.tracking_error_max_m = lab->tracking_error_max_m;
+  return rules;
+}
+
+}  // namespace
 
 Scenario read_scenario(const ScenarioChoices& choices) {
   const ScenarioValues values = parse_scenario(Node::read_yaml(choices.file), choices.file);
@@ -70,6 +79,7 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                                     .reference_rule = scenario.profile.reference_rule,
                                     .strategies = scenario.profile.strategies,
                                     .search = scenario.search,
+                                    .deviation = deviation_rules(scenario.lab),
                                     .conflicts = scenario.conflicts,
                                     .lab = scenario.lab},
       std::move(on), std::move(routes));

@@ -116,6 +116,12 @@ inline constexpr std::size_t kMaxCarsOnCircle = 20;
     const Scenario& scenario, VehicleId id, controller::PreparedSubgraph on);
 [[nodiscard]] controller::PreparedSubgraph prepare_subgraph_of(const Scenario& scenario);
 
+/// True if poses lie ahead of their stamps where the scenario is driven (LabLimits::pose_lead_s):
+/// as those of the lab's vehicles, which the simulated ones are to be like then.
+[[nodiscard]] inline bool has_early_stamps(const Scenario& scenario) {
+  return scenario.lab && scenario.lab->pose_lead_s > 0.0;
+}
+
 /// Yaw of a vehicle that stands at a planned pose (the lab's vehicles point slightly aside of their
 /// course).
 [[nodiscard]] Pose measured_start(const Scenario& scenario, const ScenarioVehicle& vehicle);

@@ -9,8 +9,8 @@
 
 namespace hlc::vehicle {
 
-/// Limits and area of a lab's vehicles. All bounds are on the curve that the vehicle interpolates
-/// from its points (interpolated in timed_curve.hpp), at any time.
+/// Limits, area and time stamps of a lab's vehicles. All bounds are on the curve that the vehicle
+/// interpolates from its points (interpolated in timed_curve.hpp), at any time.
 struct LabLimits {
   /// Of the path, above kMinSpeedForCurvature_mps: the steady-state limits of the vehicle's
   /// steering, to the right (< 0) and to the left (> 0), which may differ.
@@ -27,7 +27,14 @@ struct LabLimits {
   double y_max_m{};
   /// Time between the points of a command.
   double point_interval_s{};
+  /// A vehicle is at its pose this long after the pose's stamp (kMostPoseLead_s at most).
+  double pose_lead_s{};
+  /// Largest position error of a vehicle that follows its commands undisturbed, at stamp + lead. 0:
+  /// not known.
+  double tracking_error_max_m{};
 };
+
+inline constexpr double kMostPoseLead_s = 0.1;
 
 /// The lab's follower bounds no curvature below this speed; at standstill a path has none.
 inline constexpr double kMinSpeedForCurvature_mps = 0.1;

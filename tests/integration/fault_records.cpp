@@ -89,7 +89,8 @@ bool drives_near_another(const std::vector<ReportRecord>& so_far, VehicleId vict
 
 void expect_victim_drives_only_its_last_plan(const FaultRecords& records, Nanoseconds to) {
   const std::uint8_t victim = records.victim.value;
-  expect_only_the_last_plan(records.drives.at(victim), records.commands, victim, records.fault, to);
+  expect_only_the_last_plan(records.drives.at(victim), records.commands, victim, records.fault, to,
+                            records.tracking_tolerance_m);
 }
 
 void expect_victim_stands(const FaultRecords& records) {
@@ -112,7 +113,8 @@ void expect_others_keep_clear(const FaultRecords& records, const scenario::Scena
     const Nanoseconds until = std::min(free, to);
     if (fell_back->value * kPeriod > records.fault + kReactionTime) continue;  // came near later
     if (until > records.fault + kReactionTime) {
-      expect_only_the_last_plan(drive, records.commands, id, records.fault, until);
+      expect_only_the_last_plan(drive, records.commands, id, records.fault, until,
+                                records.tracking_tolerance_m);
       ++judged;
     }
     if (until > records.fault + kStandingTime && to == kForever) {

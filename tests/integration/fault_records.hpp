@@ -22,6 +22,7 @@ struct FaultRecords {
   result::Drives drives;
   Commands commands;
   std::vector<ReportRecord> reports;
+  double tracking_tolerance_m{0.010};  ///< by which a car may be off its plan (fault_rules.hpp)
 };
 
 /// The car whose own process is hit cannot get a new plan.

@@ -31,6 +31,9 @@ class FaultyRun {
 
   [[nodiscard]] bool drives_near_another(VehicleId victim) {
     records_.victim = victim;
+    if (run.scenario().lab) {
+      records_.tracking_tolerance_m = run.scenario().lab->tracking_error_max_m;
+    }
     return run.comes_to(
         [&] {
           return run.is_between_commands() && test::drives_near_another(run.reports(), victim) &&

@@ -26,6 +26,7 @@ struct Flags {
   std::vector<double> pose;
   std::vector<std::uint64_t> noise_seeds;
   double gains_scale{1.0};
+  std::string stamps{"exact"};
   std::string record;
   bool append_record{};
   bool keep_running{false};
@@ -49,6 +50,11 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--gains_scale", flags.gains_scale, "factor on the follower's gains; 0: no motion")
       ->capture_default_str()
       ->check(hlc::apps::within(0.0, kMaxGainsScale));
+  app.add_option("--stamps", flags.stamps,
+                 "exact: a state shows the pose of its stamp; lab: as the lab's simulated vehicle, "
+                 "which follows by its own controller and shows the pose 20 ms after the stamp")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"exact", "lab"}));
   CLI::Option* const record =
       app.add_option("--record", flags.record,
                      "CSV file for the true motion, one row per tick; with several vehicles one "
@@ -80,6 +86,12 @@ std::vector<Value> share_of(const char* flag, const std::vector<Value>& all, std
 
 std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(const Flags& flags) {
   hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
+  const bool is_as_in_lab = flags.stamps == "lab";
+  if (is_as_in_lab && flags.gains_scale != 1.0) {
+    throw std::invalid_argument(fmt::format(
+        "--gains_scale = {}, must be 1 with --stamps = lab: its controller has no gains",
+        flags.gains_scale));
+  }
   const std::size_t count = flags.vehicle_ids.size();
   std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles;
   for (std::size_t i = 0; i < count; ++i) {
@@ -89,7 +101,9 @@ std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(const Flag
         {.vehicle_id = id,
          .start = hlc::apps::start_pose(id, share_of("--pose", flags.pose, i, 3, count)),
          .noise_seed = seed.empty() ? std::nullopt : std::optional(seed.front()),
-         .gains = scaled(hlc::tracking::FollowerGains{}, flags.gains_scale)});
+         .gains = scaled(hlc::tracking::FollowerGains{}, flags.gains_scale),
+         .stamps = is_as_in_lab ? hlc::simulated_vehicle::Stamps::kLab
+                                : hlc::simulated_vehicle::Stamps::kExact});
   }
   return vehicles;
 }

@@ -18,6 +18,7 @@
 #include "planner/controller/joint_step.hpp"
 #include "planner/coordination/priority.hpp"
 #include "planner/policy/subgraph_selector.hpp"
+#include "vehicle_sim/closed_loop/stamps_of.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 namespace hlc::closed_loop {
@@ -64,7 +65,8 @@ class Lab {
       simulated_vehicle::SimulatedVehicleOptions simulated{
           .vehicle_id = id,
           .start = scenario::measured_start(scenario, vehicle),
-          .gains = options.gains};
+          .gains = options.gains,
+          .stamps = options.stamps.value_or(stamps_of(scenario))};
       if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
       high_level_controller::HlcCore hlc(scenario::make_controller(scenario, vehicle.id, prepared));
       controller::ControlLoop loop(hlc.controller(), cpu_clock_);

@@ -8,7 +8,7 @@
 #include "hlc_bridge/result/run_record.hpp"
 #include "planner/controller/joint_step.hpp"
 #include "planner/scenario/scenario.hpp"
-#include "vehicle_sim/tracking/follower.hpp"
+#include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 namespace hlc::closed_loop {
 
@@ -25,6 +25,7 @@ struct ExperimentOptions {
   /// Vehicle i measures with noise of seed noise_seed + i, as run_lab.sh has it; none: exactly.
   std::optional<std::uint64_t> noise_seed{};
   tracking::FollowerGains gains{};
+  std::optional<simulated_vehicle::Stamps> stamps{};  ///< none: stamps_of the scenario
   Clocks clocks{};
   /// Disturbances of the controllers' steps. Default: no losses, no delays.
   controller::JointStepRules rules{};

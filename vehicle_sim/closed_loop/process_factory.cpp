@@ -10,6 +10,7 @@
 #include "vehicle_sim/closed_loop/lab_control_host.hpp"
 #include "vehicle_sim/closed_loop/middleware_host.hpp"
 #include "vehicle_sim/closed_loop/seeded_random.hpp"
+#include "vehicle_sim/closed_loop/stamps_of.hpp"
 #include "vehicle_sim/closed_loop/vehicle_host.hpp"
 
 namespace hlc::closed_loop {
@@ -42,10 +43,13 @@ lab_control::LabControlMachine lab_control(const scenario::Scenario& scenario,
   return {std::make_unique<lab_control::RealTimeRun>(std::move(run)), kProgressInterval};
 }
 
-simulated_vehicle::VehicleMachine vehicle(std::uint8_t id, const Pose& start,
-                                          const LabSettings& settings) {
+simulated_vehicle::VehicleMachine vehicle(const scenario::Scenario& scenario, std::uint8_t id,
+                                          const Pose& start, const LabSettings& settings) {
   return simulated_vehicle::VehicleMachine(
-      {.vehicle = {.vehicle_id = id, .start = start, .noise_seed = mixed(settings.seed, id)},
+      {.vehicle = {.vehicle_id = id,
+                   .start = start,
+                   .noise_seed = mixed(settings.seed, id),
+                   .stamps = stamps_of(scenario)},
        .rules = settings.is_logical ? machine::logical_rules() : machine::real_rules(kVehicleStays),
        .startup_timeout = kStartupTimeout});
 }
@@ -126,8 +130,9 @@ std::unique_ptr<SimulatedProcess> ProcessFactory::make(const ProcessKey& key,
     case Role::kLabControl:
       return wrapped(place, LabControlHost(), lab_control(*scenario_, settings_, ids_));
     case Role::kVehicle:
-      return wrapped(place, VehicleHost(key.vehicle),
-                     vehicle(key.vehicle, start.value_or(first_pose(key.vehicle)), settings_));
+      return wrapped(
+          place, VehicleHost(key.vehicle),
+          vehicle(*scenario_, key.vehicle, start.value_or(first_pose(key.vehicle)), settings_));
     case Role::kMiddleware:
       return wrapped(place, MiddlewareHost(key.vehicle, ids_), middleware(key.vehicle, settings_));
     case Role::kController:

@@ -40,21 +40,34 @@ SimulatedVehicle::SimulatedVehicle(const SimulatedVehicleOptions& options)
               .battery_voltage_v = vehicle::kBatteryVoltage_v,
               .noise_seed = options.noise_seed}),
       estimator_(options.vehicle),
-      follower_(options.gains, options.vehicle) {}
+      follower_(options.gains, options.vehicle) {
+  if (options.stamps == Stamps::kLab) {
+    lab_follower_.emplace(options.vehicle);
+    measure();
+  }
+}
+
+void SimulatedVehicle::measure() {
+  measured_ = plant_.measure();
+  estimate_ = estimator_.update(measured_.pose, measured_.speed_mps, follower_.acted());
+}
 
 SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
   const vehicle::VehicleMotion truth = plant_.motion();
-  const plant::Measurement measured = plant_.measure();
-  const vehicle::VehicleMotion estimate =
-      estimator_.update(measured.pose, measured.speed_mps, follower_.acted());
-
-  const Decision decision = decide(t_now, estimate);
+  if (!lab_follower_) measure();
+  const Decision decision = decide(t_now);
+  follower_.give(decision.input);
+  const auto move = [&] { plant_.step(decision.input); };
+  if (lab_follower_) {
+    move();
+    measure();
+  }
   const bool follows = decision.status == tracking::FollowerStatus::kFollowing;
-  Tick result{.state = state_message(vehicle_id_, t_now, estimate, measured, decision.input),
+  Tick result{.state = state_message(vehicle_id_, t_now, estimate_, measured_, decision.input),
               .observation = {.vehicle_id = vehicle_id_,
                               .create_stamp = t_now,
                               .valid_after_stamp = t_now,
-                              .pose = measured.pose},
+                              .pose = measured_.pose},
               .driven = {.t = t_now,
                          .pose = truth.pose,
                          .speed_mps = truth.speed_mps,
@@ -62,24 +75,26 @@ SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
                          .steering = decision.input.steering,
                          .command_create = follows ? decision.command_create : 0},
               .status = decision.status};
-
-  follower_.give(decision.input);
-  plant_.step(decision.input);
+  if (!lab_follower_) move();
   if (is_braking() && --braking_ticks_left_ == 0) {
     std::apply([](auto&... buffers) { (buffers.clear(), ...); }, commands_);
   }
   return result;
 }
 
-SimulatedVehicle::Decision SimulatedVehicle::decide(Nanoseconds t_now,
-                                                    const vehicle::VehicleMotion& estimate) {
+tracking::Follower::Output SimulatedVehicle::follow(Nanoseconds t_now,
+                                                    const TrajectoryCommand* command) {
+  return lab_follower_ ? lab_follower_->tick(t_now, estimate_, command)
+                       : follower_.decide(t_now, estimate_, command);
+}
+
+SimulatedVehicle::Decision SimulatedVehicle::decide(Nanoseconds t_now) {
   // All buffers are queried at every tick: a command that is not queried while it is valid would
   // count as new when one of higher rank has expired.
   const auto usable = std::apply(
       [&](auto&... buffers) { return std::tuple{buffers.usable_at(t_now)...}; }, commands_);
   const auto& [direct, speed_curvature, trajectory, path] = usable;
-  const tracking::Follower::Output followed =
-      follower_.decide(t_now, estimate, is_braking() ? nullptr : trajectory);
+  const tracking::Follower::Output followed = follow(t_now, is_braking() ? nullptr : trajectory);
   const bool has_estimate = followed.status != tracking::FollowerStatus::kNoEstimate;
   if (has_estimate && !is_braking()) {
     if (direct != nullptr) {
@@ -88,14 +103,14 @@ SimulatedVehicle::Decision SimulatedVehicle::decide(Nanoseconds t_now,
               direct->create_stamp};
     }
     if (speed_curvature != nullptr) {
-      return {{.throttle = speed_control_.tick(speed_curvature->speed_mps, estimate.speed_mps),
+      return {{.throttle = speed_control_.tick(speed_curvature->speed_mps, estimate_.speed_mps),
                .steering = tracking::steering_for_curvature(speed_curvature->curvature_per_m)},
               tracking::FollowerStatus::kFollowing,
               speed_curvature->create_stamp};
     }
     if (trajectory == nullptr && path != nullptr) {
-      if (const auto steering = tracking::steering_for_path(*path, estimate)) {
-        return {{.throttle = speed_control_.tick(path->speed_mps, estimate.speed_mps),
+      if (const auto steering = tracking::steering_for_path(*path, estimate_)) {
+        return {{.throttle = speed_control_.tick(path->speed_mps, estimate_.speed_mps),
                  .steering = *steering},
                 tracking::FollowerStatus::kFollowing,
                 path->create_stamp};

@@ -11,23 +11,36 @@
 #include "vehicle_sim/tracking/command_buffer.hpp"
 #include "vehicle_sim/tracking/command_laws.hpp"
 #include "vehicle_sim/tracking/follower.hpp"
+#include "vehicle_sim/tracking/lab_follower.hpp"
 #include "vehicle_sim/tracking/pose_estimator.hpp"
 
 namespace hlc::simulated_vehicle {
+
+/// Which pose the state stamped `t` shows, and who follows trajectories.
+enum class Stamps : std::uint8_t {
+  kExact,  ///< the pose at t; Follower
+  /// The lab's simulated vehicle: it moves on for a tick and then stamps, so the pose is that of
+  /// t + 20 ms; LabFollower
+  kLab,
+};
 
 struct SimulatedVehicleOptions {
   std::uint8_t vehicle_id{};
   Pose start;                               ///< finite
   std::optional<std::uint64_t> noise_seed;  ///< none: the pose is measured exactly
-  tracking::FollowerGains gains;
+  tracking::FollowerGains gains;            ///< of kExact
   vehicle::IdentifiedVehicle vehicle;
+  Stamps stamps{Stamps::kExact};
 };
 
 /// A whole µCar without network and clock: commands in, states out, one call per tick of 20 ms. The
 /// vehicle's process and every closed loop in one process use this class.
 ///
 /// A tick: measure, estimate, choose the command, follow it (or stop), give the input to the plant.
-/// The result is the vehicle at `t_now`, before the plant moves on.
+/// The result is the vehicle at `t_now`, before the plant moves on. With Stamps::kLab it measures
+/// and estimates after the plant has moved on: state and observation lie a tick ahead of their
+/// stamps, and the next input is computed from them. `driven` is the true motion at its time with
+/// both.
 ///
 /// Of usable commands of several kinds the first of this order counts, as in the lab: direct, speed
 /// and curvature, trajectory, path tracking.
@@ -70,16 +83,22 @@ class SimulatedVehicle {
     Nanoseconds command_create{};  ///< of the active command
   };
 
-  [[nodiscard]] Decision decide(Nanoseconds t_now, const vehicle::VehicleMotion& estimate);
+  void measure();
+  [[nodiscard]] Decision decide(Nanoseconds t_now);
+  [[nodiscard]] tracking::Follower::Output follow(Nanoseconds t_now,
+                                                  const TrajectoryCommand* command);
 
   std::uint8_t vehicle_id_;
   plant::Plant plant_;
   tracking::PoseEstimator estimator_;
+  plant::Measurement measured_;      ///< the last one
+  vehicle::VehicleMotion estimate_;  ///< from it
   std::tuple<tracking::CommandBuffer<DirectCommand>, tracking::CommandBuffer<SpeedCurvatureCommand>,
              tracking::CommandBuffer<TrajectoryCommand>,
              tracking::CommandBuffer<PathTrackingCommand>>
       commands_;
   tracking::Follower follower_;
+  std::optional<tracking::LabFollower> lab_follower_;  ///< Stamps::kLab
   tracking::SpeedControl speed_control_;
   int braking_ticks_left_{};
 };

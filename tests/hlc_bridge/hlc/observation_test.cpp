@@ -75,6 +75,12 @@ TEST(Observation, TheAgeIsThatAtTheBeginOfTheStep) {
   EXPECT_NEAR(observation.states[0].age_s, 0.06, 1e-12);
 }
 
+TEST(Observation, WithALeadThePoseIsYoungerThanItsStamp) {
+  const VehicleStateList list = list_at(1'000 * kMillisecond + 1, {state(1, 940 * kMillisecond)});
+  EXPECT_NEAR(observation_of(list, 0.02).states.at(0).age_s, 0.04, 1e-12);
+  EXPECT_NEAR(observation_of(list, 0.10).states.at(0).age_s, -0.04, 1e-12);
+}
+
 TEST(Observation, CompleteMeansAUsableStateOfEveryActiveVehicle) {
   const Nanoseconds now = 1'000 * kMillisecond + 1;
   const auto both = list_at(now, {state(3, 940 * kMillisecond), state(1, 940 * kMillisecond)});

@@ -35,6 +35,15 @@ TEST(DrivingFault, WhoLeftHisPlanByMoreThanTheMarginButNotHisAreasEndangeredNobo
   EXPECT_EQ(danger_of(summary), "");
 }
 
+TEST(DrivingFault, WhoDeviatedAsUndisturbedCarsOfItsLabDoDroveWell) {
+  RunSummary summary = summary_of_two();
+  summary.description.tracking_error_max_m = 0.035;
+  summary.vehicles[1].deviation_max_m = 0.035;
+  EXPECT_EQ(driving_fault(summary), "");
+  summary.vehicles[1].deviation_max_m = 0.036;
+  EXPECT_NE(driving_fault(summary), "");
+}
+
 TEST(DrivingFault, NamesTouchesAndStepsOutsideTheAreas) {
   RunSummary summary = summary_of_two();
   summary.vehicles[1].steps_outside_announced_area = 4;

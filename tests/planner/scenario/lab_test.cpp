@@ -91,6 +91,14 @@ TEST(LabFile, ErrorsNameLineValueAndWhatIsAllowed) {
                         "0.2 s"));
   EXPECT_THAT(error_text("x_max_m: 4.5", "x_max_m: -4.5"), HasSubstr("area.x_max_m = -4.5"));
   EXPECT_THAT(error_text("y_max_m: 4.0", "y_top_m: 4.0"), HasSubstr("y_max_m"));
+  EXPECT_THAT(error_text("pose_lead_s: 0.020", "pose_lead_s: 0.101"),
+              HasSubstr("pose_lead_s = 0.101, must be"));
+  for (const char* bad : {"-0.001", ".nan", "soon"}) {
+    EXPECT_THAT(error_text("pose_lead_s: 0.020", std::string("pose_lead_s: ") + bad),
+                HasSubstr("pose_lead_s"));
+  }
+  EXPECT_THAT(error_text("tracking_error_max_m: 0.035", "tracking_error_max_m: -1"),
+              HasSubstr("tracking_error_max_m = -1"));
   EXPECT_THAT(error_text("area:", "speed: 3\narea:"), HasSubstr("speed"));
 }
 

@@ -56,7 +56,7 @@ TEST_P(ShippedAutomaton, Drives) {
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedAutomaton,
                          testing::Values(Shipped{"grid_red_alone", "J2", 80, 11.0},
-                                         Shipped{"lab_circle", "B", 20, 2.0},
+                                         Shipped{"lab_circle", "B", 22, 2.0},
                                          Shipped{"passenger_cars", "effort", 30, 65.0},
                                          Shipped{"passenger_cars", "comfort", 30, 65.0}),
                          testing::PrintToStringParamName());

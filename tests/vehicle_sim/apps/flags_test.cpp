@@ -48,6 +48,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadFlags{"--vehicle_id=1 --noise_seed=-1", "--noise_seed"},
         BadFlags{"--vehicle_id=1 --gains_scale=nan", "--gains_scale"},
         BadFlags{"--vehicle_id=1 --gains_scale=-1", "--gains_scale"},
+        BadFlags{"--vehicle_id=1 --stamps=late", "--stamps"},
+        BadFlags{"--vehicle_id=1 --stamps=lab --gains_scale=0.5", "--gains_scale"},
         BadFlags{"--vehicle_id=1 --discovery_mode=client", "--discovery"},
         BadFlags{"--vehicle_id=1 --discovery_mode=server", "--discovery_mode"},
         BadFlags{"--vehicle_id=1 --startup_timeout_s=0", "--startup_timeout_s"},

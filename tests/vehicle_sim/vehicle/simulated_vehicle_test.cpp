@@ -56,6 +56,41 @@ TEST(SimulatedVehicle, WithoutNoiseTheStateIsTheTruthBitForBit) {
   }
 }
 
+TEST(SimulatedVehicle, WithTheLabsStampsAStateShowsThePoseOfATickLater) {
+  SimulatedVehicle vehicle({.vehicle_id = 7, .start = kStart, .stamps = Stamps::kLab});
+  const std::vector<Sample> samples =
+      drive(vehicle, straight_walk(10).mission(), straight_walk(10).end());
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    const SimulatedVehicle::Tick& tick = samples[i].tick;
+    EXPECT_EQ(tick.state.create_stamp, samples[i].t);
+    EXPECT_EQ(tick.driven.t, samples[i].t);
+    EXPECT_EQ(tick.state.pose, samples[i + 1].tick.driven.pose);
+    EXPECT_EQ(tick.observation.pose, samples[i + 1].tick.driven.pose);
+    EXPECT_EQ(tick.state.speed_mps, samples[i + 1].tick.driven.speed_mps);
+  }
+}
+
+TEST(SimulatedVehicle, WithTheLabsStampsItLeavesItsReferenceWhereThatStartsAndStops) {
+  SimulatedVehicle vehicle({.vehicle_id = 7, .start = kStart, .stamps = Stamps::kLab});
+  const TrimWalk walk = straight_walk(15);
+  const Nanoseconds start = TrimWalk::kFirstStep * driven_vehicle::kPeriod;
+  const Nanoseconds tail = 1'000 * kMillisecond;
+  double at_start_m = 0.0;
+  double driving_m = 0.0;
+  double at_stop_m = 0.0;
+  for (const Sample& sample : drive(vehicle, walk.mission(), walk.end() + tail)) {
+    const bool starts = sample.t < start + 5 * driven_vehicle::kPeriod;
+    const bool stops = sample.t + driven_vehicle::kPeriod > walk.end();
+    double& largest_m = starts ? at_start_m : stops ? at_stop_m : driving_m;
+    largest_m = std::max(largest_m, sample.error_m());
+  }
+  EXPECT_GT(at_start_m, 0.010);
+  EXPECT_LT(at_start_m, 0.034);
+  EXPECT_LT(driving_m, 0.006);
+  EXPECT_GT(at_stop_m, 0.010);
+  EXPECT_LT(at_stop_m, 0.034);
+}
+
 TEST(SimulatedVehicle, EqualOptionsAndCommandsGiveEqualDrives) {
   const TrimWalk walk(kStart, {1, 7, 8, 9, 10, 9, 8, 7, 1}, 1);
   const SimulatedVehicleOptions options{.vehicle_id = 1, .start = kStart, .noise_seed = 11};

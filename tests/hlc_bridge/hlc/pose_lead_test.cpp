@@ -1,0 +1,61 @@
+#include "hlc_bridge/hlc/pose_lead.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/planner/controller/east_bound.hpp"
+
+namespace hlc::high_level_controller::pose_lead_test {
+namespace {
+
+using controller::Controller;
+using controller::east_bound::at;
+using controller::east_bound::following;
+using controller::east_bound::seen;
+using testing::HasSubstr;
+
+/// Lines of a car that drives east from step 100 on, each pose measured `ahead_s` too early, and in
+/// every fourth step far off.
+std::vector<std::string> lines(double ahead_s, std::uint64_t steps) {
+  const auto one = controller::east_bound::controller(1);
+  static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  PoseLeadCheck check;
+  std::vector<std::string> result;
+  for (std::uint64_t k = 101; k < 101 + steps; ++k) {
+    const coordination::MeasuredVehicle measured = following(*one, k);
+    coordination::MeasuredVehicle early = measured;
+    early.pose.x_m += ahead_s * measured.speed_mps + (k % 4 == 0 ? 0.05 : 0.0);
+    if (const auto line = check.note(*one, at(k, {early}))) result.push_back(*line);
+    static_cast<void>(one->observe(at(k, {measured})));
+    one->couple({});
+    static_cast<void>(one->plan({}));
+    static_cast<void>(one->commit({}, {}));
+  }
+  return result;
+}
+
+TEST(PoseLead, WithinTheToleranceIsNotLogged) {
+  for (const double ahead_s : {-0.0045, 0.0, 0.0045}) EXPECT_TRUE(lines(ahead_s, 60).empty());
+}
+
+TEST(PoseLead, BeyondTheToleranceIsLoggedOnceWithItsValue) {
+  EXPECT_THAT(lines(0.020, 60), testing::ElementsAre(HasSubstr("about 20 ms ahead")));
+  EXPECT_THAT(lines(-0.008, 60), testing::ElementsAre(HasSubstr("about -8 ms ahead")));
+}
+
+TEST(PoseLead, OfFewStepsIsNotJudged) {
+  EXPECT_TRUE(lines(0.020, 25).empty()) << "the first one stands";
+}
+
+TEST(PoseLead, OfAStandingOrUnseenCarIsNotJudged) {
+  const auto one = controller::east_bound::controller(1);
+  static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  PoseLeadCheck check;
+  for (std::uint64_t k = 101; k < 200; ++k) {
+    EXPECT_FALSE(check.note(*one, at(k, {seen(1, 0.1, 0.0)})));
+    EXPECT_FALSE(check.note(*one, at(k, {})));
+  }
+}
+
+}  // namespace
+}  // namespace hlc::high_level_controller::pose_lead_test
