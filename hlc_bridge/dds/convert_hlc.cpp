@@ -6,22 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "hlc_bridge/dds/convert_planning.hpp"
+
 // The structured bindings name every field of a plain message, so that a new field does not compile
 // until it is converted.
 namespace hlc::dds {
 namespace {
-
-PoseMessage pose_to_wire(const Pose& pose) {
-  PoseMessage result;
-  result.x_m(pose.x_m);
-  result.y_m(pose.y_m);
-  result.heading_rad(pose.heading_rad);
-  return result;
-}
-
-Pose pose_from_wire(const PoseMessage& wire) {
-  return {wire.x_m(), wire.y_m(), wire.heading_rad()};
-}
 
 PolygonMessage polygon_to_wire(const ConvexPolygon& polygon) {
   PolygonMessage result;
@@ -199,8 +189,8 @@ bool can_be_written(const coordination::Outcome& message) { return is_valid(mess
 bool can_be_written(const ReportRecord& message) { return is_valid(message.report.vehicle); }
 
 void to_wire(const coordination::Traffic& message, TrafficMessage& wire) {
-  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent, claim] =
-      message;
+  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent, claim,
+               planning] = message;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.next_pose(pose_to_wire(next_pose));
@@ -210,27 +200,32 @@ void to_wire(const coordination::Traffic& message, TrafficMessage& wire) {
   wire.silent(ids_to_wire(silent));
   wire.claims_lane(claim.has_value());
   wire.claim(claim_to_wire(claim.value_or(coordination::LaneClaim{})));
+  wire.has_planning(planning.has_value());
+  wire.planning(planning_to_wire(planning.value_or(coordination::PlanningInput{})));
 }
 
 Incoming<coordination::Traffic> from_wire(const TrafficMessage& wire) {
   const bool valid = is_valid(VehicleId{wire.vehicle_id()}) &&
                      is_finite(pose_from_wire(wire.next_pose())) && is_valid(wire.running()) &&
                      is_valid(wire.reachable_area_m()) && is_valid(wire.silent()) &&
-                     (!wire.claims_lane() || is_valid(wire.claim()));
+                     (!wire.claims_lane() || is_valid(wire.claim())) &&
+                     (!wire.has_planning() || is_valid(wire.planning()));
   if (!valid) {
     return {std::nullopt, 1};
   }
-  return {coordination::Traffic{.vehicle = {wire.vehicle_id()},
-                                .step = {wire.step()},
-                                .next_pose = pose_from_wire(wire.next_pose()),
-                                .next_trim = {wire.next_trim()},
-                                .running = areas_from_wire(wire.running()),
-                                .reachable_area_m = polygon_from_wire(wire.reachable_area_m()),
-                                .silent = ids_from_wire(wire.silent()),
-                                .claim = wire.claims_lane()
-                                             ? std::optional{claim_from_wire(wire.claim())}
-                                             : std::nullopt},
-          0};
+  return {
+      coordination::Traffic{
+          .vehicle = {wire.vehicle_id()},
+          .step = {wire.step()},
+          .next_pose = pose_from_wire(wire.next_pose()),
+          .next_trim = {wire.next_trim()},
+          .running = areas_from_wire(wire.running()),
+          .reachable_area_m = polygon_from_wire(wire.reachable_area_m()),
+          .silent = ids_from_wire(wire.silent()),
+          .claim = wire.claims_lane() ? std::optional{claim_from_wire(wire.claim())} : std::nullopt,
+          .planning = wire.has_planning() ? std::optional{planning_from_wire(wire.planning())}
+                                          : std::nullopt},
+      0};
 }
 
 void to_wire(const coordination::Prediction& message, PredictionMessage& wire) {
@@ -259,17 +254,26 @@ Incoming<coordination::Prediction> from_wire(const PredictionMessage& wire) {
 }
 
 void to_wire(const coordination::Outcome& message, OutcomeMessage& wire) {
-  const auto& [vehicle, step, wants_fallback] = message;
+  const auto& [vehicle, step, wants_fallback, digests] = message;
+  const auto& [inputs, plan] = digests.value_or(coordination::PlanDigests{});
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.wants_fallback(wants_fallback);
+  wire.has_digests(digests.has_value());
+  wire.inputs_digest(inputs);
+  wire.plan_digest(plan);
 }
 
 Incoming<coordination::Outcome> from_wire(const OutcomeMessage& wire) {
-  return valid_if(is_valid(VehicleId{wire.vehicle_id()}),
-                  coordination::Outcome{.vehicle = {wire.vehicle_id()},
-                                        .step = {wire.step()},
-                                        .wants_fallback = wire.wants_fallback()});
+  return valid_if(
+      is_valid(VehicleId{wire.vehicle_id()}),
+      coordination::Outcome{.vehicle = {wire.vehicle_id()},
+                            .step = {wire.step()},
+                            .wants_fallback = wire.wants_fallback(),
+                            .digests = wire.has_digests() ? std::optional{coordination::PlanDigests{
+                                                                .inputs = wire.inputs_digest(),
+                                                                .plan = wire.plan_digest()}}
+                                                          : std::nullopt});
 }
 
 // A name that is too long is cut: without the report its sender would seem dead.

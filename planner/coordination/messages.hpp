@@ -6,6 +6,7 @@
 
 #include "planner/automaton/trim_id.hpp"
 #include "planner/coordination/ids.hpp"
+#include "planner/coordination/planning_input.hpp"
 #include "planner/geometry/polygon.hpp"
 #include "planner/geometry/pose.hpp"
 
@@ -47,6 +48,9 @@ struct Traffic {
   std::vector<VehicleId> silent;
   /// Place at t(k), authority as of the end of the last step. Absent: the run has no right of way.
   std::optional<LaneClaim> claim{};
+  /// With which the receivers can plan for the sender. Absent: they cannot; they need its
+  /// prediction.
+  std::optional<PlanningInput> planning{};
 };
 
 /// Second message of step k: the plan of this step, from t(k+1) on.
@@ -67,11 +71,20 @@ struct Prediction {
 [[nodiscard]] bool is_well_formed(const Traffic& traffic);
 [[nodiscard]] bool is_well_formed(const Prediction& prediction);
 
-/// Third message of step k: its result, as far as the sender alone knows it.
+/// With two rounds: what the sender planned from.
+struct PlanDigests {
+  std::uint64_t inputs{};  ///< of all traffic that it planned from, its own included
+  std::uint64_t plan{};    ///< of the prediction that it has computed for itself and not published
+  friend bool operator==(const PlanDigests&, const PlanDigests&) = default;
+};
+
+/// Last message of step k: its result, as far as the sender alone knows it.
 struct Outcome {
   VehicleId vehicle;
   StepIndex step;         ///< k
   bool wants_fallback{};  ///< commit rule `agreed`: the sender had to fall back
+  /// Instead of a prediction, for receivers that have computed it themselves (digest.hpp).
+  std::optional<PlanDigests> digests{};
 };
 
 }  // namespace hlc::coordination

@@ -11,6 +11,15 @@ Plan::Plan(StepIndex first, const Pose& pose, const automaton::Maneuver& standst
            const Owner& owner)
     : Plan(first, pose, Entry(owner, &standstill)) {}
 
+Plan::Plan(StepIndex first, std::vector<Pose> poses,
+           const std::vector<const automaton::Maneuver*>& maneuvers,
+           const automaton::Maneuver& standstill, const Owner& owner)
+    : first_(first), standstill_(owner, &standstill), poses_(std::move(poses)) {
+  HLC_DEMAND(poses_.size() == maneuvers.size() + 1, poses_.size(), maneuvers.size());
+  maneuvers_.reserve(maneuvers.size());
+  for (const automaton::Maneuver* maneuver : maneuvers) maneuvers_.emplace_back(owner, maneuver);
+}
+
 Plan::Plan(StepIndex first, const Pose& pose, Entry standstill)
     : first_(first), standstill_(std::move(standstill)), poses_{pose} {}
 

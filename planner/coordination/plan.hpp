@@ -24,6 +24,12 @@ class Plan {
   /// @param owner       of it
   Plan(StepIndex first, const Pose& pose, const automaton::Maneuver& standstill,
        const Owner& owner = {});
+  /// These maneuvers with these poses at t(first + i), then `standstill`.
+  /// @param owner  of all
+  /// @pre one pose more than maneuvers; they follow each other, and the self-loop follows them
+  Plan(StepIndex first, std::vector<Pose> poses,
+       const std::vector<const automaton::Maneuver*>& maneuvers,
+       const automaton::Maneuver& standstill, const Owner& owner);
 
   /// This plan until t(step), then `continuation`, then `standstill`; what lies before t(step - 2)
   /// is forgotten.

@@ -140,6 +140,19 @@ TEST(OwnConversionRefuses, LaneClaimsWithoutPlace) {
   }
 }
 
+TEST(OwnConversionRefuses, PlanningInputsWithNumbersThatAreNotFinite) {
+  auto traffic = good<coordination::Traffic>();
+  traffic.planning = coordination::PlanningInput{.base = {.poses = {{}}}};
+  EXPECT_FALSE(is_refused(traffic));
+  traffic.planning->base.poses.front().y_m = kNan;
+  EXPECT_TRUE(is_refused(traffic));
+  traffic.planning->base.poses.assign(2000, {});
+  EXPECT_TRUE(is_refused(traffic)) << "more than any program sends";
+  traffic.planning->base.poses.resize(1);
+  traffic.planning->path_s_m = kNan;
+  EXPECT_TRUE(is_refused(traffic));
+}
+
 // Whatever a sender without right of way leaves there.
 TEST(OwnConversion, IgnoresTheClaimOfATrafficMessageWithoutClaim) {
   auto traffic = good<coordination::Traffic>();

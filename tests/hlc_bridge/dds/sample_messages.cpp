@@ -6,6 +6,8 @@
 #include <sstream>
 #include <type_traits>
 
+#include "planner/coordination/digest.hpp"
+
 namespace hlc::dds {
 namespace {
 
@@ -129,16 +131,18 @@ void put_message(std::ostream& out, const coordination::LaneClaim& value) {
   put_all(out, a, b, c, d);
 }
 void put_message(std::ostream& out, const coordination::Traffic& value) {
-  const auto& [a, b, c, d, e, f, g, h] = value;
-  put_all(out, a, b, c, d, e, f, g, h.has_value(), h.value_or(coordination::LaneClaim{}));
+  const auto& [a, b, c, d, e, f, g, h, i] = value;
+  put_all(out, a, b, c, d, e, f, g, h.has_value(), h.value_or(coordination::LaneClaim{}),
+          i.has_value(), coordination::digest_of(value));
 }
 void put_message(std::ostream& out, const coordination::Prediction& value) {
   const auto& [a, b, c, d, e] = value;
   put_all(out, a, b, c, d, e.has_value(), e.value_or(coordination::OccupiedAreas{}));
 }
 void put_message(std::ostream& out, const coordination::Outcome& value) {
-  const auto& [a, b, c] = value;
-  put_all(out, a, b, c);
+  const auto& [a, b, c, d] = value;
+  const auto& [inputs, plan] = d.value_or(coordination::PlanDigests{});
+  put_all(out, a, b, c, d.has_value(), inputs, plan);
 }
 void put_message(std::ostream& out, const coordination::Waiting& value) {
   put_all(out, value.vehicles, value.since);
@@ -429,6 +433,29 @@ Visualization sample(Random& random) {
   return message;
 }
 
+coordination::PlanningInput planning_input(Random& random) {
+  const auto index = [](Random& from) { return static_cast<std::uint32_t>(from()); };
+  coordination::PlanningInput input{
+      .basis = random(),
+      .may_plan = coin(random),
+      .base = {{random()}, list(random, 9, pose), list(random, 9, index), index(random)},
+      .is_moved = coin(random),
+      .seen_step = {random()},
+      .seen_time_s = number(random),
+      .seen_pose = pose(random),
+      .deviation_m = number(random),
+      .route = index(random),
+      .path_s_m = number(random),
+      .area = {}};
+  auto& [entry, is_possible, is_certain, is_departing, stands_since] = input.area;
+  if (coin(random)) entry = {number(random), number(random), number(random), number(random)};
+  is_possible = coin(random);
+  is_certain = coin(random);
+  is_departing = coin(random);
+  if (coin(random)) stands_since = StepIndex{random()};
+  return input;
+}
+
 template <>
 coordination::Traffic sample(Random& random) {
   coordination::Traffic traffic{vehicle(random),         {random()},    pose(random),
@@ -438,6 +465,7 @@ coordination::Traffic sample(Random& random) {
     traffic.claim = {static_cast<std::uint32_t>(random()), number(random), number(random),
                      static_cast<std::uint32_t>(random())};
   }
+  if (coin(random)) traffic.planning = planning_input(random);
   return traffic;
 }
 
@@ -452,7 +480,9 @@ coordination::Prediction sample(Random& random) {
 
 template <>
 coordination::Outcome sample(Random& random) {
-  return {vehicle(random), {random()}, coin(random)};
+  coordination::Outcome outcome{vehicle(random), {random()}, coin(random)};
+  if (coin(random)) outcome.digests = {.inputs = random(), .plan = random()};
+  return outcome;
 }
 
 template <>
