@@ -41,11 +41,9 @@ std::optional<ReportRecord> ControlStep::advance(const Instant& now,
       record_.planning_ns = loop_.planning_ns();
       return std::exchange(record_, {});
     }
-    if (output.prediction) {
-      actions.add(*std::move(output.prediction));
-      if (output.outcome) actions.add(*output.outcome);
-      return std::nullopt;
-    }
+    if (output.prediction) actions.add(*std::move(output.prediction));
+    if (output.outcome) actions.add(*output.outcome);
+    if (output.prediction || output.outcome) return std::nullopt;
   }
   return std::nullopt;
 }

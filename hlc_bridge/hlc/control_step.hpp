@@ -51,6 +51,9 @@ class ControlStep {
                                                     const IsReachable& is_reachable, bool is_over,
                                                     HlcActions& actions);
 
+  /// ControlLoop::two_rounds
+  [[nodiscard]] const controller::TwoRounds* two_rounds() const { return loop_.two_rounds(); }
+
   /// When to advance without an event. @pre is_running()
   [[nodiscard]] WakeUp wake_up() const;
   /// Number of awaited messages; 0: advance at once. @pre is_running()

@@ -258,7 +258,10 @@ void HlcMachine::finish(ReportRecord record, const Instant& now) {
 bool HlcMachine::report() {
   coordination::Report& report = current_.record.report;
   core_.controller().note_waiting(report);
-  if (current_.is_running) notes_.note_step(controller(), report, actions_);
+  if (current_.is_running) {
+    notes_.note_step(controller(), report, actions_);
+    if (step_.two_rounds() != nullptr) notes_.note_rounds(*step_.two_rounds(), actions_);
+  }
   actions_.add(current_.record);
   actions_.add(
       DrawStep{.report = report, .time_to_live = kDrawnPeriods * period_of(current_.list)});

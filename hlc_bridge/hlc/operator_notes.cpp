@@ -42,6 +42,24 @@ void OperatorNotes::note_step(const controller::Controller& controller,
   }
 }
 
+void OperatorNotes::note_rounds(const controller::TwoRounds& rounds, HlcActions& actions) {
+  for (const VehicleId vehicle : rounds.not_shared()) {
+    if (!not_shared_logged_.insert(vehicle).second) continue;
+    actions.warn(
+        fmt::format("plans of vehicle {} cannot be computed here (it misses a controller, changes "
+                    "its subgraph, "
+                    "or has another scenario or automaton); planning one after the other",
+                    vehicle.value));
+  }
+  if (rounds.differs_from() && !is_difference_logged_) {
+    actions.error(fmt::format(
+        "plans of vehicle {} differ from those computed here from the same traffic; planning one "
+        "after the other from now on",
+        rounds.differs_from()->value));
+    is_difference_logged_ = true;
+  }
+}
+
 void OperatorNotes::note_fault(StepIndex step, const AnswerToList& answer, HlcActions& actions) {
   if (!answer.fault.empty() && answer.fault != last_fault_) {
     actions.error(fmt::format("command of step {} not sent, {}: {}", step.value,

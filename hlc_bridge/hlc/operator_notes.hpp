@@ -1,12 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 
 #include "hlc_bridge/hlc/hlc_core.hpp"
 #include "hlc_bridge/hlc/hlc_events.hpp"
 #include "hlc_bridge/hlc/pose_lead.hpp"
 #include "planner/controller/controller.hpp"
+#include "planner/controller/two_rounds.hpp"
 
 namespace hlc::high_level_controller {
 
@@ -29,6 +31,10 @@ class OperatorNotes {
   void note_step(const controller::Controller& controller, const coordination::Report& report,
                  HlcActions& actions);
 
+  /// With two rounds: whose plans cannot be computed here, so that vehicles plan one after the
+  /// other; of each vehicle once.
+  void note_rounds(const controller::TwoRounds& rounds, HlcActions& actions);
+
   /// @param answer  the step's
   void note_fault(StepIndex step, const AnswerToList& answer, HlcActions& actions);
 
@@ -41,6 +47,8 @@ class OperatorNotes {
   bool is_budget_logged_{};
   std::uint64_t cut_off_steps_{};  ///< consecutive, in which the vehicle was kept from driving off
   coordination::StuckNotice stuck_;
+  std::set<VehicleId> not_shared_logged_;
+  bool is_difference_logged_{};
   std::string last_fault_;
   PoseLeadCheck pose_lead_;
 };

@@ -52,6 +52,7 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
             .waiting_steps = stands && !gives_back ? claim_.waiting_steps + 1 : 0};
   has_place_ = true;
   withheld_by_.clear();
+  granted_m_.clear();
 }
 
 void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
@@ -68,12 +69,22 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
     holders.push_back({other, claim});
   }
   const std::vector<double> ahead_m = right_of_way::grant(*map_, holders, blocked, kLookAhead_m);
-  for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
+  for (std::size_t i = 0; i < holders.size(); ++i) {
+    holders[i].claim.ahead_m = ahead_m[i];
+    granted_m_[holders[i].vehicle] = ahead_m[i];
+  }
   claim_.ahead_m = ahead_m.front();
   const bool is_limited = claim_.ahead_m + map_->cell_m(claim_.route) <= kLookAhead_m;
   if (is_limited) {
     withheld_by_ = right_of_way::withheld_by(*map_, holders, blocked, 0);
   }
+}
+
+void Authority::resume(const coordination::LaneClaim& claim, VehicleId vehicle,
+                       const Authority& receiver) {
+  claim_ = claim;
+  const auto granted = receiver.granted_m_.find(vehicle);
+  if (granted != receiver.granted_m_.end()) claim_.ahead_m = granted->second;
 }
 
 double Authority::end_s_m(double s_m) const {

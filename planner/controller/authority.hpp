@@ -55,6 +55,10 @@ class Authority {
               std::span<const VehicleId> silent, std::span<const right_of_way::Blocked> blocked,
               double step_m);
 
+  /// The authority of another vehicle with this claim in its traffic, after the grants of
+  /// `receiver`: grants are the same in all controllers that received the same.
+  void resume(const coordination::LaneClaim& claim, VehicleId vehicle, const Authority& receiver);
+
   /// Vehicles that hold or block what would be granted next, if the end limits planning. @pre
   /// extend
   [[nodiscard]] const std::vector<VehicleId>& withheld_by() const { return withheld_by_; }
@@ -69,7 +73,8 @@ class Authority {
   coordination::LaneClaim claim_;
   std::vector<VehicleId> withheld_by_;
   std::map<VehicleId, coordination::LaneClaim> known_;  ///< the last of each other vehicle
-  std::uint32_t unused_steps_{};  ///< for which it has stood with road in front of it
+  std::map<VehicleId, double> granted_m_;  ///< ahead_m of all after `extend`; empty: not extended
+  std::uint32_t unused_steps_{};           ///< for which it has stood with road in front of it
   bool has_place_{};
 };
 

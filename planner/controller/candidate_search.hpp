@@ -44,6 +44,8 @@ class CandidateSearch {
 
   /// The current subgraph.
   [[nodiscard]] const PreparedSubgraph& on() const { return current_.on(); }
+  /// Only the current subgraph may be searched.
+  [[nodiscard]] bool is_settled() const { return !former_; }
   /// Reachable sets of all subgraphs that may be searched, that of `on` first.
   [[nodiscard]] std::vector<const automaton::ReachableSets*> reachable() const;
   /// How far the vehicle can get from the trim within a horizon.

@@ -1,5 +1,6 @@
 #include "planner/controller/control_loop.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "planner/common/demand.hpp"
@@ -11,9 +12,12 @@ constexpr std::uint64_t kMaxStepsAhead = 10;
 
 }  // namespace
 
-ControlLoop::ControlLoop(Controller& controller, Stopwatch stopwatch)
+ControlLoop::ControlLoop(Controller& controller, Stopwatch stopwatch, Rounds rounds)
     : controller_(&controller), stopwatch_(std::move(stopwatch)) {
   if (!stopwatch_) stopwatch_ = [] { return std::uint64_t{}; };
+  if (rounds == Rounds::kTwo && controller.options().others && !needs_votes()) {
+    two_rounds_.emplace(controller.options().others);
+  }
 }
 
 StepOutput ControlLoop::begin(const Observation& observation) {
@@ -22,7 +26,9 @@ StepOutput ControlLoop::begin(const Observation& observation) {
   active_ = observation.active;
   planning_ns_ = 0;
   phase_ = StepPhase::kTraffic;
-  return {.traffic = controller_->observe(observation)};
+  StepOutput output{.traffic = controller_->observe(observation)};
+  if (!two_rounds_ || two_rounds_->differs_from()) output.traffic->planning.reset();
+  return output;
 }
 
 coordination::Report ControlLoop::stand_by(const Observation& observation) {
@@ -77,6 +83,17 @@ Awaited ControlLoop::missing_of(MessageKind kind, const std::vector<VehicleId>& 
   return awaited;
 }
 
+/// Who has sent an outcome with digests sends no prediction, or has sent it.
+Awaited ControlLoop::missing_plans_of(MessageKind kind, const std::vector<VehicleId>& from) const {
+  Awaited awaited = missing_of<coordination::Prediction>(kind, from);
+  const std::vector<coordination::Outcome> outcomes = received<coordination::Outcome>();
+  std::erase_if(awaited.from, [&](VehicleId vehicle) {
+    const auto outcome = std::ranges::find(outcomes, vehicle, &coordination::Outcome::vehicle);
+    return outcome != outcomes.end() && outcome->digests;
+  });
+  return awaited;
+}
+
 bool ControlLoop::needs_votes() const {
   return controller_->options().strategies.coordination.commit.needs_votes;
 }
@@ -88,13 +105,14 @@ Awaited ControlLoop::awaited() const {
     case StepPhase::kTraffic:
       return missing_of<coordination::Traffic>(MessageKind::kTraffic, active_);
     case StepPhase::kPredecessors:
-      return missing_of<coordination::Prediction>(MessageKind::kPrediction,
-                                                  controller_->predecessors());
+      if (is_in_two_rounds()) return {.kind = MessageKind::kPrediction, .from = {}};
+      return missing_plans_of(MessageKind::kPrediction, controller_->predecessors());
     case StepPhase::kCommit:
-      return needs_votes() ? missing_of<coordination::Outcome>(MessageKind::kOutcome,
-                                                               controller_->component())
-                           : missing_of<coordination::Prediction>(MessageKind::kPrediction,
-                                                                  controller_->coupled());
+      if (needs_votes()) {
+        return missing_of<coordination::Outcome>(MessageKind::kOutcome, controller_->component());
+      }
+      return missing_plans_of(is_in_two_rounds() ? MessageKind::kOutcome : MessageKind::kPrediction,
+                              controller_->coupled());
   }
   HLC_DEMAND(is_in_step());  // nothing is awaited outside a step
   return {};
@@ -105,28 +123,50 @@ StepOutput ControlLoop::proceed() {
     case StepPhase::kIdle:
       break;
     case StepPhase::kTraffic:
-      controller_->couple(received<coordination::Traffic>());
       phase_ = StepPhase::kPredecessors;
+      couple();
       return {};
     case StepPhase::kPredecessors:
       phase_ = StepPhase::kCommit;
       return plan();
     case StepPhase::kCommit:
       phase_ = StepPhase::kIdle;
-      return {.report = controller_->commit(received<coordination::Prediction>(),
-                                            received<coordination::Outcome>())};
+      return commit();
   }
   HLC_DEMAND(is_in_step());
   return {};
 }
 
+void ControlLoop::couple() {
+  controller_->couple(received<coordination::Traffic>());
+  if (!two_rounds_) return;
+  const std::uint64_t from_ns = stopwatch_();
+  static_cast<void>(two_rounds_->begin(*controller_));
+  planning_ns_ = stopwatch_() - from_ns;
+}
+
 StepOutput ControlLoop::plan() {
+  StepOutput output;
   const std::vector<coordination::Prediction> predictions = received<coordination::Prediction>();
   const std::uint64_t from_ns = stopwatch_();
-  StepOutput output{.prediction = controller_->plan(predictions)};
-  planning_ns_ = stopwatch_() - from_ns;
+  if (is_in_two_rounds()) {
+    output.outcome = two_rounds_->plan(*controller_);
+    if (!controller_->missing().empty()) output.prediction = controller_->prediction();
+  } else {
+    output.prediction = controller_->plan(predictions);
+  }
+  planning_ns_ += stopwatch_() - from_ns;
   if (needs_votes()) output.outcome = controller_->vote();
   return output;
+}
+
+StepOutput ControlLoop::commit() {
+  const std::vector<coordination::Outcome> outcomes = received<coordination::Outcome>();
+  std::vector<coordination::Prediction> predictions = received<coordination::Prediction>();
+  if (is_in_two_rounds()) {
+    predictions = two_rounds_->known_plans(*controller_, predictions, outcomes);
+  }
+  return {.report = controller_->commit(predictions, outcomes)};
 }
 
 StepOutput ControlLoop::fall_back(coordination::FallbackReason reason) {

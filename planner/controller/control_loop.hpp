@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "planner/controller/controller.hpp"
+#include "planner/controller/two_rounds.hpp"
 
 namespace hlc::controller {
 
 enum class MessageKind { kTraffic, kPrediction, kOutcome };
 
-/// Messages to publish now; at the end of the step its report.
+/// Messages to publish now; at the end of the step its report. With two rounds (TwoRounds) the
+/// outcome comes without a prediction.
 struct StepOutput {
   std::optional<coordination::Traffic> traffic{};
   std::optional<coordination::Prediction> prediction{};
@@ -31,8 +33,10 @@ struct Awaited {
 enum class StepPhase {
   kIdle,          ///< not in a step
   kTraffic,       ///< traffic of all other active vehicles
-  kPredecessors,  ///< predictions of the coupled vehicles that plan before this one
-  kCommit,  ///< predictions of the coupled vehicles (strict), outcomes of the component (agreed)
+  kPredecessors,  ///< predictions of the coupled vehicles that plan before this one; with two
+                  ///< rounds nothing
+  kCommit,  ///< predictions of the coupled vehicles (strict), outcomes of the component (agreed);
+            ///< with two rounds outcomes of the coupled vehicles
 };
 
 /// Processor time in nanoseconds from any origin; for measuring only.
@@ -55,7 +59,10 @@ class ControlLoop {
   /// @param controller  not owned; must outlive this object; between the steps its owner may change
   /// it freely (switch_to, set_minimal_risk_stop)
   /// @param stopwatch   measures planning_ns; absent: 0
-  explicit ControlLoop(Controller& controller, Stopwatch stopwatch = {});
+  /// @param rounds      kTwo has two rounds where it is possible, if the controller can plan for
+  /// the others (ControllerOptions::others), and its commit rule needs no votes
+  explicit ControlLoop(Controller& controller, Stopwatch stopwatch = {},
+                       Rounds rounds = Rounds::kTwo);
 
   [[nodiscard]] Controller& controller() { return *controller_; }
   [[nodiscard]] const Controller& controller() const { return *controller_; }
@@ -84,6 +91,11 @@ class ControlLoop {
   /// Ends the step instead; outputs the report: the plan in force stays. @pre in a step
   [[nodiscard]] StepOutput fall_back(coordination::FallbackReason reason);
 
+  /// nullptr: all steps are sequential.
+  [[nodiscard]] const TwoRounds* two_rounds() const {
+    return two_rounds_ ? &*two_rounds_ : nullptr;
+  }
+
   /// Duration of planning in the last step, by the stopwatch.
   [[nodiscard]] std::uint64_t planning_ns() const { return planning_ns_; }
 
@@ -97,7 +109,12 @@ class ControlLoop {
   [[nodiscard]] std::vector<Message> received() const;
   template <class Message>
   [[nodiscard]] Awaited missing_of(MessageKind kind, const std::vector<VehicleId>& from) const;
+  [[nodiscard]] Awaited missing_plans_of(MessageKind kind,
+                                         const std::vector<VehicleId>& from) const;
   [[nodiscard]] bool needs_votes() const;
+  [[nodiscard]] bool is_in_two_rounds() const { return two_rounds_ && two_rounds_->is_begun(); }
+  void couple();
+  [[nodiscard]] StepOutput commit();
   [[nodiscard]] StepOutput plan();
 
   Controller* controller_;
@@ -106,6 +123,7 @@ class ControlLoop {
   StepIndex step_;
   std::vector<VehicleId> active_;
   std::uint64_t planning_ns_{};
+  std::optional<TwoRounds> two_rounds_;
   std::tuple<Received<coordination::Traffic>, Received<coordination::Prediction>,
              Received<coordination::Outcome>>
       received_;

@@ -6,6 +6,7 @@
 
 #include "planner/automaton/deviation.hpp"
 #include "planner/common/demand.hpp"
+#include "planner/controller/planning_basis.hpp"
 #include "planner/controller/problem_alone.hpp"
 #include "planner/controller/self_loop.hpp"
 #include "planner/coordination/coupling.hpp"
@@ -29,6 +30,18 @@ coordination::FallbackReason reason_of(coordination::CommitVerdict verdict) {
   return coordination::FallbackReason::kNone;
 }
 
+/// Areas of the plan in force from t(from) on.
+coordination::OccupiedAreas rest_of(const coordination::OccupiedAreas& running, StepIndex from) {
+  coordination::OccupiedAreas rest{
+      .first = from, .areas_m = {}, .final_area_m = running.final_area_m};
+  const std::size_t passed = from.value - running.first.value;
+  if (passed < running.areas_m.size()) {
+    rest.areas_m.assign(running.areas_m.begin() + static_cast<std::ptrdiff_t>(passed),
+                        running.areas_m.end());
+  }
+  return rest;
+}
+
 }  // namespace
 
 Controller::Controller(const ControllerOptions& options,
@@ -50,7 +63,8 @@ Controller::Controller(ControllerOptions options, PreparedSubgraph on,
       search_(std::move(on), options_.search, options_.horizon_steps),
       tracker_(std::make_shared<const std::vector<road::DrivableRoute>>(std::move(routes))),
       drivable_area_(options_.strategies.standstill_timeout, options_.horizon_steps),
-      neighbours_(options_.vehicle, rules_for_missing(subgraph().automaton())) {
+      neighbours_(options_.vehicle, rules_for_missing(subgraph().automaton())),
+      routes_digest_(digest_of(tracker_.routes())) {
   if (options_.conflicts) authority_.emplace(options_.conflicts);
 }
 
@@ -130,6 +144,7 @@ coordination::Traffic Controller::observe(const Observation& observation) {
     authority_->begin_step(plan_in_force(), now, tracker_, reach_m());
     traffic.claim = authority_->claim();
   }
+  if (options_.others) traffic.planning = planning_input();
   return traffic;
 }
 
@@ -180,15 +195,19 @@ void Controller::couple(std::span<const coordination::Traffic> received) {
   neighbours_.receive(received, step_.observation);
   std::vector<const coordination::Traffic*> traffic = neighbours_.received();
   traffic.push_back(&step_.traffic);
-  const coordination::CouplingGraph graph(std::move(traffic));
+  step_.report.missing = neighbours_.missing();
+  extend_authority();
+  take_coupling(coordination::CouplingGraph(std::move(traffic)));
+}
+
+void Controller::take_coupling(const coordination::CouplingGraph& graph) {
+  step_.coupling = graph;
   step_.predecessors =
       coordination::predecessors(graph, options_.vehicle, options_.strategies.plans_before);
   step_.component = graph.component(options_.vehicle);
   step_.report.coupled = graph.neighbours(options_.vehicle);
-  step_.report.missing = neighbours_.missing();
   step_.report.level =
       coordination::computation_level(graph, options_.vehicle, options_.strategies.plans_before);
-  extend_authority();
   // A coupled vehicle that does not receive our messages may soon drive as if we stood for good
   // (missing.hpp).
   const bool is_silent_to_any = std::ranges::any_of(coupled(), [this](VehicleId other) {
@@ -262,7 +281,7 @@ coordination::Prediction Controller::plan(std::span<const coordination::Predicti
                       .step = step_.observation.step,
                       .is_new = step_.candidate.plan.has_value(),
                       .areas = step_.candidate.plan ? std::move(step_.candidate.areas)
-                                                    : in_force_->announced_areas(step_.next()),
+                                                    : rest_of(step_.traffic.running, step_.next()),
                       .desired = std::move(desired)};
   return step_.prediction;
 }

@@ -19,6 +19,7 @@
 #include "planner/controller/prepared_subgraph.hpp"
 #include "planner/controller/route_tracker.hpp"
 #include "planner/controller/waits_for.hpp"
+#include "planner/coordination/coupling.hpp"
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/report.hpp"
 #include "planner/road/corridor.hpp"
@@ -96,6 +97,15 @@ class Controller {
 
   /// First phase. @pre a plan is in force (see `has_plan`), observation.step has increased
   [[nodiscard]] coordination::Traffic observe(const Observation& observation);
+  /// Of another vehicle, in place of its first two phases: takes the state in which its own
+  /// controller is after them if that one has received the same traffic. `plan` then returns what
+  /// that controller predicts, bit for bit; no other phase may follow.
+  /// @param traffic   of this object's vehicle in the step
+  /// @param receiver  has received it, and is after `couple`
+  /// @return false: this object cannot plan for the vehicle (another basis, or nonsense)
+  [[nodiscard]] bool resume(const coordination::Traffic& traffic, const Controller& receiver);
+  /// PlanningInput::basis of the vehicle.
+  [[nodiscard]] std::uint64_t planning_basis() const;
   /// Any time between the first phase and the third, while the owner waits for the others'
   /// messages: searches the former step's problem, updated as far as that is known without the
   /// messages, and drops the result. Changes nothing; but it fills the processor's caches with the
@@ -108,6 +118,11 @@ class Controller {
   /// the drift, checks the result, and searches again if the drift leads into something: planning
   /// time is the duration of all this.
   [[nodiscard]] coordination::Prediction plan(std::span<const coordination::Prediction> received);
+  /// The result of `plan`.
+  [[nodiscard]] const coordination::Prediction& prediction() const { return step_.prediction; }
+  /// After `plan`: the prediction that it was given of this vehicle does not count as received, so
+  /// that `commit` checks the plan against the vehicle.
+  void disregard(VehicleId vehicle) { step_.respected.erase(vehicle); }
   /// Fourth phase, for a commit rule that needs votes: what the others need to know before they
   /// commit.
   [[nodiscard]] coordination::Outcome vote() const;
@@ -128,6 +143,12 @@ class Controller {
   [[nodiscard]] const std::vector<VehicleId>& predecessors() const { return step_.predecessors; }
   [[nodiscard]] const std::vector<VehicleId>& coupled() const { return step_.report.coupled; }
   [[nodiscard]] const std::vector<VehicleId>& component() const { return step_.component; }
+  [[nodiscard]] const std::vector<VehicleId>& missing() const { return step_.report.missing; }
+  [[nodiscard]] const coordination::CouplingGraph& coupling() const { return *step_.coupling; }
+  /// Traffic of this step of a vehicle of the component, its own included.
+  [[nodiscard]] const coordination::Traffic& traffic_of(VehicleId vehicle) const {
+    return vehicle == options_.vehicle ? step_.traffic : neighbours_.traffic_of(vehicle);
+  }
   /// The problems that `plan` gave to the search (PlanCandidate::problems): none if it did not get
   /// that far. Valid until the next step.
   [[nodiscard]] std::span<const search::HorizonProblem> problems() const {
@@ -191,6 +212,7 @@ class Controller {
     Observation observation;
     coordination::Report report;
     coordination::Traffic traffic;  ///< own
+    std::optional<coordination::CouplingGraph> coupling;
     std::vector<VehicleId> predecessors;
     std::vector<VehicleId> component;
     std::vector<search::HorizonProblem> entry_problems;
@@ -215,6 +237,8 @@ class Controller {
   void report_plan_in_force(coordination::Report& report) const;
   [[nodiscard]] ConvexPolygon reachable_area_m() const;
   void depart_from(const Pose& pose);
+  [[nodiscard]] std::optional<coordination::PlanningInput> planning_input() const;
+  void take_coupling(const coordination::CouplingGraph& graph);
   [[nodiscard]] bool may_plan() const;
   void extend_authority();
   void respect_predecessors(std::span<const coordination::Prediction> received);
@@ -263,6 +287,7 @@ class Controller {
   Step step_;
   std::optional<search::HorizonProblem> former_problem_;  ///< for `warm_up`
   coordination::Waiting waiting_;                         ///< in the last step
+  std::uint64_t routes_digest_;
 };
 
 }  // namespace hlc::controller

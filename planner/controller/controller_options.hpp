@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -55,6 +57,16 @@ struct ControllerStrategies {
   friend bool operator==(const ControllerStrategies&, const ControllerStrategies&) = default;
 };
 
+/// Rounds of messages in a step, after which the vehicles know each other's new plans.
+enum class Rounds : std::uint8_t {
+  kSequential,  ///< one for each level of priorities: each waits for its predecessors' predictions
+  kTwo,         ///< each computes them from the traffic (joint_planning.hpp)
+};
+
+class Controller;
+/// Makes the controller of another vehicle as that one's own process does.
+using ControllerFactory = std::function<std::unique_ptr<Controller>(VehicleId)>;
+
 /// Greater weights cost accuracy: at 1e4 and 10 m costs still differ by 1e-9.
 inline constexpr double kMostContouringWeight = 1e4;
 
@@ -73,6 +85,9 @@ struct ControllerOptions {
   std::shared_ptr<const right_of_way::ConflictMap> conflicts{};
   /// Limits of the vehicle: a plan beyond them does not come into force. Absent: none.
   std::optional<vehicle::LabLimits> lab{};
+  /// With which this controller plans for the others, too (joint_planning.hpp); its traffic then
+  /// has a planning input. Absent: vehicles plan one after the other.
+  ControllerFactory others{};
 };
 
 }  // namespace hlc::controller

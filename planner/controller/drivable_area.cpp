@@ -26,6 +26,34 @@ void DrivableArea::update_drivable_area(const DrivableAreaInputs& inputs) {
   }
 }
 
+coordination::DrivableAreaState DrivableArea::state() const {
+  coordination::DrivableAreaState state{.entry = std::nullopt,
+                                        .is_possible = entry_.is_possible,
+                                        .is_certain = entry_.is_certain,
+                                        .is_departing = is_departing_,
+                                        .stands_since = stands_since_};
+  if (entry_.area) {
+    const road::Widening& by = entry_.widening;
+    state.entry = {
+        .from_s_m = by.from_s_m, .to_s_m = by.to_s_m, .left_m = by.left_m, .right_m = by.right_m};
+  }
+  return state;
+}
+
+void DrivableArea::resume(const coordination::DrivableAreaState& state,
+                          const road::DrivableRoute& route) {
+  entry_ = {.is_possible = state.is_possible, .is_certain = state.is_certain, .area = {}};
+  if (state.entry) {
+    entry_.widening = {.from_s_m = state.entry->from_s_m,
+                       .to_s_m = state.entry->to_s_m,
+                       .left_m = state.entry->left_m,
+                       .right_m = state.entry->right_m};
+    entry_.area = road::widened(route, entry_.widening);
+  }
+  is_departing_ = state.is_departing;
+  stands_since_ = state.stands_since;
+}
+
 coordination::FallbackReason DrivableArea::obstacle() const {
   if (entry_.is_possible) return coordination::FallbackReason::kNone;
   return entry_.is_certain ? coordination::FallbackReason::kOffRoute

@@ -43,6 +43,10 @@ class DrivableArea {
 
   void update_drivable_area(const DrivableAreaInputs& inputs);
 
+  /// What `update_drivable_area` depends on, and the same again on the same route.
+  [[nodiscard]] coordination::DrivableAreaState state() const;
+  void resume(const coordination::DrivableAreaState& state, const road::DrivableRoute& route);
+
   /// The area that leads into the lanes, while it is needed.
   [[nodiscard]] const std::optional<road::Corridor>& entry_area() const { return entry_.area; }
   /// Why the vehicle has to stay in place; none if it need not.

@@ -42,7 +42,7 @@ StepOutput plan(ControlLoop& loop, const JointStepRules& rules) {
   } else {
     proceed();
   }
-  if (rules.on_prediction) rules.on_prediction(loop.controller(), *output.prediction);
+  if (rules.on_prediction) rules.on_prediction(loop.controller(), loop.controller().prediction());
   return output;
 }
 
@@ -69,7 +69,7 @@ std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops
       continue;
     }
     const StepOutput output = plan(*loops[i], rules);
-    exchange.deliver(MessageKind::kPrediction, *output.prediction);
+    if (output.prediction) exchange.deliver(MessageKind::kPrediction, *output.prediction);
     if (output.outcome) exchange.deliver(MessageKind::kOutcome, *output.outcome);
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -84,7 +84,9 @@ std::vector<coordination::Report> joint_step(std::span<Controller* const> contro
   std::vector<ControlLoop> loops;
   std::vector<ControlLoop*> pointers;
   loops.reserve(controllers.size());
-  for (Controller* one : controllers) pointers.push_back(&loops.emplace_back(*one));
+  for (Controller* one : controllers) {
+    pointers.push_back(&loops.emplace_back(*one, Stopwatch{}, rules.rounds));
+  }
   return joint_step(pointers, observation, rules);
 }
 

@@ -39,6 +39,8 @@ struct JointStepRules {
   /// directly.
   std::function<void(const std::function<void()>&)> around_planning{};
   ExternalMessages external{};
+  /// Of controllers without a loop of their owner. kTwo: each makes its replicas in each step.
+  Rounds rounds{Rounds::kSequential};
 };
 
 /// One control step of controllers that receive each other's messages in memory, each with the same

@@ -71,13 +71,14 @@ LaneEntry find_lane_entry(
     const auto by = [extra_m](double beyond_m) {
       return std::max(0.0, beyond_m + kReserve_m) + extra_m;
     };
-    road::Corridor area = road::widened(route, {.from_s_m = placement.s_m - kEntryBack_m,
-                                                .to_s_m = placement.s_m + kEntryAhead_m,
-                                                .left_m = by(placement.beyond_left_m),
-                                                .right_m = by(placement.beyond_right_m)});
+    const road::Widening widening{.from_s_m = placement.s_m - kEntryBack_m,
+                                  .to_s_m = placement.s_m + kEntryAhead_m,
+                                  .left_m = by(placement.beyond_left_m),
+                                  .right_m = by(placement.beyond_right_m)};
+    road::Corridor area = road::widened(route, widening);
     const search::SearchResult found = search(pose_problem(area));
     if (leads_in(found, start, drives_off_m, in_lanes.boundary_m, route, footprint)) {
-      return {.area = std::move(area)};
+      return {.area = std::move(area), .widening = widening};
     }
     is_certain = is_certain && !used_up_budget(found);
   }

@@ -35,6 +35,7 @@ struct LaneEntry {
   bool is_possible{true};
   bool is_certain{true};               ///< if it is impossible: no search used up its budget
   std::optional<road::Corridor> area;  ///< none: the plain corridor
+  road::Widening widening{};           ///< by which the area came from the corridor
 };
 
 inline constexpr double kEntryBack_m = 0.5;

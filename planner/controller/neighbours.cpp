@@ -45,6 +45,14 @@ void Neighbours::receive(std::span<const coordination::Traffic> traffic,
   update_standstill(observation);
 }
 
+Neighbours Neighbours::in_place_of(VehicleId other, const coordination::Traffic& own) const {
+  Neighbours result = *this;
+  result.own_ = other;
+  result.traffic_.erase(other);
+  result.traffic_[own_] = own;
+  return result;
+}
+
 void Neighbours::forget_if_steps_are_missing() {
   const bool is_gap = last_looked_ && now_.value > last_looked_->value + 1;
   last_looked_ = now_;

@@ -58,6 +58,10 @@ class Neighbours {
   /// may have driven and been received meanwhile.
   void receive(std::span<const coordination::Traffic> traffic, const Observation& observation);
 
+  /// The same knowledge in the controller of `other`, if it has received the same in this step and
+  /// those before. @param own  traffic of this controller. @pre receive; `other` was received
+  [[nodiscard]] Neighbours in_place_of(VehicleId other, const coordination::Traffic& own) const;
+
   /// Received in this step, sorted by vehicle.
   [[nodiscard]] std::vector<const coordination::Traffic*> received() const;
   /// @pre it was received in this step

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner/automaton/deviation.hpp"
+#include "planner/coordination/plan_by_index.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
 namespace hlc::controller {
@@ -12,6 +13,15 @@ namespace {
 
 /// Share of the safety margin that is reserved for the error of a one-step prediction.
 constexpr double kUnderWayShare = 0.2;
+
+std::vector<bool> trims_at_limit(const automaton::UniversalAutomaton& automaton) {
+  std::vector<bool> is_at_limit;
+  for (const automaton::Trim& trim : automaton.trims) {
+    is_at_limit.push_back(
+        automaton::is_at_steering_limit(trim, automaton.vehicle, automaton.identified));
+  }
+  return is_at_limit;
+}
 
 }  // namespace
 
@@ -21,15 +31,38 @@ PlanInForce::PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> au
     : automaton_(std::move(automaton)),
       standstill_(&standstill),
       rules_(rules),
+      is_at_limit_(trims_at_limit(*automaton_)),
       plan_(step,
             automaton::pose_of_measured(measured, 0.0, automaton_->vehicle, automaton_->identified),
             standstill, automaton_),
       announced_(plan_.areas_from(step)),
-      seen_{.step = step, .time_s = 0.0, .pose = measured} {
-  for (const automaton::Trim& trim : automaton_->trims) {
-    is_at_limit_.push_back(
-        automaton::is_at_steering_limit(trim, automaton_->vehicle, automaton_->identified));
-  }
+      seen_{.step = step, .time_s = 0.0, .pose = measured} {}
+
+PlanInForce::PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+                         const automaton::Maneuver& standstill, DeviationRules rules,
+                         coordination::Plan base, const coordination::PlanningInput& input)
+    : automaton_(std::move(automaton)),
+      standstill_(&standstill),
+      rules_(rules),
+      is_at_limit_(trims_at_limit(*automaton_)),
+      plan_(std::move(base)),
+      seen_{.step = input.seen_step, .time_s = input.seen_time_s, .pose = input.seen_pose},
+      deviation_m_(input.deviation_m) {
+  if (input.is_moved) moved_ = plan_;
+}
+
+std::optional<coordination::PlanningInput> PlanInForce::planning_input(
+    StepIndex now, const automaton::UniversalAutomaton& automaton) const {
+  // A new plan keeps two steps before its own first one (Plan::continued).
+  std::optional<coordination::PlanByIndex> base =
+      coordination::by_index(this->base(), {std::max<std::uint64_t>(now.value, 1) - 1}, automaton);
+  if (!base) return std::nullopt;
+  return coordination::PlanningInput{.base = *std::move(base),
+                                     .is_moved = is_moved(),
+                                     .seen_step = seen_.step,
+                                     .seen_time_s = seen_.time_s,
+                                     .seen_pose = seen_.pose,
+                                     .deviation_m = deviation_m_};
 }
 
 DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle* own,

@@ -109,7 +109,19 @@ class PlanInForce {
               const automaton::Maneuver& standstill, DeviationRules rules, const Pose& measured,
               StepIndex step);
 
+  /// As another controller knows it, for planning in step `now` only: it announces nothing and must
+  /// not be checked or replaced.
+  /// @param base  of its traffic's planning input
+  PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
+              const automaton::Maneuver& standstill, DeviationRules rules, coordination::Plan base,
+              const coordination::PlanningInput& input);
+
   [[nodiscard]] const coordination::Plan& plan() const { return plan_; }
+
+  /// What planning in step `now` needs of it. None: its maneuvers are not all of this automaton.
+  /// Valid after `check_deviation`.
+  [[nodiscard]] std::optional<coordination::PlanningInput> planning_input(
+      StepIndex now, const automaton::UniversalAutomaton& automaton) const;
 
   /// Compares the vehicle's state in the list of step `now` (nullptr: none) with the plan.
   /// @pre now does not decrease

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "planner/controller/planning_basis.hpp"
 #include "planner/search/search_tables.hpp"
 
 namespace hlc::controller {
@@ -10,9 +11,11 @@ PreparedSubgraph prepare_subgraph(std::shared_ptr<const automaton::Subgraph> sub
                                   std::size_t horizon_steps, const search::SearchOptions& search) {
   auto reachable = std::make_shared<const automaton::ReachableSets>(*subgraph, horizon_steps + 1);
   auto tables = search::make_search_tables(*subgraph, *reachable, search);
+  const std::uint64_t digest = digest_of(*subgraph);
   return {.subgraph = std::move(subgraph),
           .reachable = std::move(reachable),
-          .tables = std::move(tables)};
+          .tables = std::move(tables),
+          .digest = digest};
 }
 
 }  // namespace hlc::controller

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "planner/automaton/reachable_sets.hpp"
@@ -17,6 +18,7 @@ struct PreparedSubgraph {
   /// For one step more than the horizon
   std::shared_ptr<const automaton::ReachableSets> reachable;
   std::shared_ptr<const search::SearchTables> tables;  ///< none if the engine needs none
+  std::uint64_t digest{};                              ///< digest_of the subgraph
 };
 
 /// Milliseconds for a dozen trims, more than a second for a hundred.

@@ -21,6 +21,12 @@ RouteTracker::RouteTracker(std::shared_ptr<const std::vector<road::DrivableRoute
   HLC_DEMAND(!routes_->empty());
 }
 
+void RouteTracker::resume(std::size_t route, double s_m) {
+  HLC_DEMAND(route < routes_->size(), route, routes_->size());
+  route_ = route;
+  s_m_ = s_m;
+}
+
 void RouteTracker::select_route(const Pose& pose, const Footprint& footprint) {
   std::optional<double> least_m;
   for (std::size_t i = 0; i < routes_->size(); ++i) {

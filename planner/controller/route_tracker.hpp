@@ -24,6 +24,11 @@ class RouteTracker {
   /// Arc length on the route; none before the first `select_route`.
   [[nodiscard]] const std::optional<double>& s_m() const { return s_m_; }
 
+  /// Index of the selected route.
+  [[nodiscard]] std::size_t index() const { return route_; }
+  /// Continues from this place. @pre the route exists
+  void resume(std::size_t route, double s_m);
+
   /// Selects the route that the pose fits best (placement.hpp), from its place there on.
   /// @param pose  the planner's (heading, not yaw)
   void select_route(const Pose& pose, const Footprint& footprint);

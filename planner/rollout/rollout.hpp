@@ -24,14 +24,19 @@ class Rollout {
   /// switched otherwise. No battery is measured. @pre all are on the subgraphs of their scenario
   void choose_by(const policy::ReconfigurationSettings& settings);
 
-  /// An independent copy of the vehicles in the same state; loses no messages, and stays on the
-  /// current subgraphs.
+  /// An independent copy of the vehicles in the same state; loses no messages, plans one after the
+  /// other, and stays on the current subgraphs.
   [[nodiscard]] Rollout clone() const;
 
   /// Messages for which this is true are lost. None by default.
   void lose(std::function<bool(const controller::Delivery&)> is_lost) {
     rules_.is_lost = std::move(is_lost);
   }
+
+  /// In which they exchange their plans; the result is the same unless messages are lost. Default:
+  /// one after the other, which is the cheapest in one process. @pre kTwo: all controllers can plan
+  /// for each other (ControllerOptions::others)
+  void exchange_in(controller::Rounds rounds) { rules_.rounds = rounds; }
 
   /// One control step of all vehicles; reports in the order of priorities.
   std::vector<coordination::Report> step();

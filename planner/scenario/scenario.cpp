@@ -56,6 +56,22 @@ controller::PreparedSubgraph prepare_subgraph_of(const Scenario& scenario) {
   return controller::prepare_subgraph(scenario.subgraph, scenario.horizon_steps, scenario.search);
 }
 
+namespace {
+
+/// They plan for other vehicles only, so they need no others themselves.
+controller::ControllerFactory others_of(const Scenario& scenario,
+                                        const controller::PreparedSubgraph& on) {
+  auto others = std::make_shared<Scenario>(scenario);
+  others->rounds = controller::Rounds::kSequential;
+  return [others = std::shared_ptr<const Scenario>(std::move(others)), on](VehicleId id) {
+    const bool is_named =
+        std::ranges::find(others->vehicles, id, &ScenarioVehicle::id) != others->vehicles.end();
+    return is_named || !others->routes.empty() ? make_controller(*others, id, on) : nullptr;
+  };
+}
+
+}  // namespace
+
 std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario, VehicleId id) {
   return make_controller(scenario, id, prepare_subgraph_of(scenario));
 }
@@ -71,6 +87,8 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                .driving_line = named->driving_line,
                .number = named->route_number}};
   }
+  controller::ControllerFactory others;
+  if (scenario.rounds == controller::Rounds::kTwo) others = others_of(scenario, on);
   return std::make_unique<controller::Controller>(
       controller::ControllerOptions{.vehicle = id,
                                     .horizon_steps = scenario.horizon_steps,
@@ -81,7 +99,8 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                                     .search = scenario.search,
                                     .deviation = deviation_rules(scenario.lab),
                                     .conflicts = scenario.conflicts,
-                                    .lab = scenario.lab},
+                                    .lab = scenario.lab,
+                                    .others = std::move(others)},
       std::move(on), std::move(routes));
 }
 

@@ -45,6 +45,7 @@ struct Scenario {
   double reference_speed_mps{};
   double contouring_weight{};  ///< ControllerOptions
   Profile profile;
+  controller::Rounds rounds{};
   /// Engine: the command line's, else the file's, else the profile's
   search::SearchOptions search;
   /// The automaton holds all that its configuration declares: other subgraphs may be requested.

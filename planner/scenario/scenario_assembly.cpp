@@ -125,6 +125,7 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   if (values.coordination) {
     scenario.profile.strategies.coordination = coordination_rules().at(*values.coordination);
   }
+  scenario.rounds = values.rounds;
   scenario.search = choose_search(values, choices, scenario.profile);
   scenario.is_reconfigurable = values.is_reconfigurable;
   scenario.subgraph = inputs.subgraph;

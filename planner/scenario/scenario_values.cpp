@@ -116,6 +116,13 @@ std::optional<std::string> read_coordination(const Node& node) {
   return node.required<std::string>("coordination", one_of(std::move(names)));
 }
 
+controller::Rounds read_rounds(const Node& node) {
+  if (!node.has("rounds")) return controller::Rounds::kSequential;
+  return node.required<std::string>("rounds", one_of({"sequential", "two"})) == "two"
+             ? controller::Rounds::kTwo
+             : controller::Rounds::kSequential;
+}
+
 }  // namespace
 
 ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& path) {
@@ -129,6 +136,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .contouring_weight = node.optional<double>("contouring_weight", 0.0,
                                                  between(0.0, controller::kMostContouringWeight)),
       .coordination = read_coordination(node),
+      .rounds = read_rounds(node),
       .engine = read_engine(node),
       .max_expansions = read_max_expansions(node),
       .criterion_weights = read_criterion_weights(node),

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/common/node.hpp"
+#include "planner/controller/controller_options.hpp"
 #include "planner/geometry/pose.hpp"
 #include "planner/policy/policy_settings.hpp"
 #include "planner/road/lanelet_map.hpp"
@@ -61,7 +62,8 @@ struct ScenarioValues {
   double reference_speed_mps{};
   double contouring_weight{};
   std::optional<std::string> coordination{};  ///< of coordination_rules; none: the profile's
-  std::optional<std::string> engine{};        ///< as choose_engine takes it
+  controller::Rounds rounds{};
+  std::optional<std::string> engine{};  ///< as choose_engine takes it
   std::size_t max_expansions{};
   std::vector<search::PlanningWeight> criterion_weights{};
   bool is_reconfigurable{};

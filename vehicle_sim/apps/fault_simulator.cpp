@@ -158,8 +158,9 @@ int campaign(const Choices& choices, const std::string& flags) {
 
 /// The flags to repeat before --replay for the same runs.
 std::string flags_of(const Choices& choices) {
-  return fmt::format(" --cars {}{}{}{}", choices.campaign.cars,
+  return fmt::format(" --cars {}{}{}{}{}", choices.campaign.cars,
                      choices.campaign.on_lab_network ? " --lab_network" : "",
+                     choices.campaign.has_two_rounds ? " --two_rounds" : "",
                      choices.faults.empty() ? "" : " --faults ", fmt::join(choices.faults, ","));
 }
 
@@ -177,6 +178,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--lab_network", choices.campaign.on_lab_network,
                "cars with right of way on the roads of lab_cars in all runs");
+  app.add_flag("--two_rounds", choices.campaign.has_two_rounds,
+               "cars compute each other's plans (rounds: two) instead of what the scenarios have");
   app.add_option("--runs", choices.runs, "number of runs")
       ->check(hlc::apps::whole(1, kLargestSeed))
       ->capture_default_str();

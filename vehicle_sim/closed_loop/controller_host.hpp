@@ -83,7 +83,11 @@ class ControllerHost : public Host {
     place().observer->on_prediction(prediction);
     publish(kPredictions, prediction);
   }
-  void perform(const coordination::Outcome& outcome) const { publish(kOutcomes, outcome); }
+  void perform(const coordination::Outcome& outcome) const {
+    // The others have computed the prediction themselves.
+    if (outcome.digests) place().observer->on_prediction(machine_->controller().prediction());
+    publish(kOutcomes, outcome);
+  }
   void perform(const TrajectoryCommand& command) const {
     place().observer->on_command(command);
     publish(kCommands, command);

@@ -76,6 +76,7 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
   const Prepared& drawn = is_on_roads ? chosen->second.roads : *circle;
   the_case.scenario =
       is_on_roads ? scenario::with_random_starts(drawn.scenario, random.next()) : drawn.scenario;
+  if (settings_.has_two_rounds) the_case.scenario.rounds = controller::Rounds::kTwo;
   FaultRunSettings& run = the_case.run;
   run.lab.prepared = drawn.subgraph;
   run.lab.seed = seed;

@@ -32,33 +32,69 @@ std::shared_ptr<const automaton::Subgraph> paper_subgraph() {
   return subgraph;
 }
 
-/// Three cars on straight lines through one point, `distances_m` before it.
-Rollout three_cars_that_meet(const controller::ControllerStrategies& strategies,
-                             const std::array<double, 3>& distances_m = {1.0, 1.0, 1.0}) {
-  std::vector<std::unique_ptr<controller::Controller>> controllers;
-  std::vector<Pose> starts;
-  for (std::uint8_t i = 0; i < 3; ++i) {
-    const double direction = 2.0 * std::numbers::pi * i / 3.0 + 0.1 * i;
-    const Point ahead(std::cos(direction), std::sin(direction));
-    const Point position = -distances_m[i] * ahead;
-    const Pose start{position.x(), position.y(), direction};
-    road::ReferencePath path({start.position_m(), 2.0 * ahead}, false);
-    controller::ControllerOptions options{.vehicle = {static_cast<std::uint8_t>(i + 1)},
-                                          .strategies = strategies};
-    options.search.max_expansions = 20'000;
-    controllers.push_back(std::make_unique<controller::Controller>(
-        options, paper_subgraph(), std::move(path), road::Corridor{}));
-    starts.push_back(start);
-  }
-  return Rollout(std::move(controllers), starts);
+struct ThreeCars {
+  controller::ControllerStrategies strategies;
+  std::array<double, 3> distances_m{1.0, 1.0, 1.0};
+  controller::Rounds rounds{};
+};
+
+/// Of car i + 1: on a straight line through the origin, `distances_m` before it.
+Pose start_of(std::size_t i, const ThreeCars& cars) {
+  const double direction =
+      2.0 * std::numbers::pi * static_cast<double>(i) / 3.0 + 0.1 * static_cast<double>(i);
+  const Point position = -cars.distances_m[i] * Point(std::cos(direction), std::sin(direction));
+  return {position.x(), position.y(), direction};
 }
 
-/// Bit of a message in a pattern: 6 per kind, one for each ordered pair of the vehicles 1, 2, 3.
+std::unique_ptr<controller::Controller> controller_of(std::size_t i, const ThreeCars& cars) {
+  static const controller::PreparedSubgraph prepared = [] {
+    const controller::ControllerOptions options;
+    return controller::prepare_subgraph(paper_subgraph(), options.horizon_steps, options.search);
+  }();
+  const Pose start = start_of(i, cars);
+  const Point ahead(std::cos(start.heading_rad), std::sin(start.heading_rad));
+  controller::ControllerOptions options{.vehicle = {static_cast<std::uint8_t>(i + 1)},
+                                        .strategies = cars.strategies};
+  options.search.max_expansions = 20'000;
+  if (cars.rounds == controller::Rounds::kTwo) {
+    options.others = [cars](VehicleId vehicle) {
+      ThreeCars others = cars;
+      others.rounds = controller::Rounds::kSequential;
+      return controller_of(vehicle.value - 1U, others);
+    };
+  }
+  return std::make_unique<controller::Controller>(
+      options, prepared,
+      std::vector<road::DrivableRoute>{
+          {.name = "",
+           .path = road::ReferencePath({start.position_m(), 2.0 * ahead}, false),
+           .corridor = {}}});
+}
+
+Rollout three_cars_that_meet(const ThreeCars& cars) {
+  std::vector<std::unique_ptr<controller::Controller>> controllers;
+  std::vector<Pose> starts;
+  for (std::size_t i = 0; i < 3; ++i) {
+    controllers.push_back(controller_of(i, cars));
+    starts.push_back(start_of(i, cars));
+  }
+  Rollout rollout(std::move(controllers), starts);
+  rollout.exchange_in(cars.rounds);
+  return rollout;
+}
+
+Rollout three_cars_that_meet(const controller::ControllerStrategies& strategies,
+                             const std::array<double, 3>& distances_m = {1.0, 1.0, 1.0}) {
+  return three_cars_that_meet(ThreeCars{.strategies = strategies, .distances_m = distances_m});
+}
+
+/// Bit of a message in a pattern: 6 for traffic and 6 for what follows, one for each ordered pair
+/// of the vehicles 1, 2, 3.
 unsigned bit_of(const controller::Delivery& delivery) {
   const unsigned from = delivery.from.value - 1U;
   const unsigned to = delivery.to.value - 1U;
   const unsigned pair = 2U * from + (to > from ? to - 1U : to);
-  return 6U * static_cast<unsigned>(delivery.kind) + pair;
+  return delivery.kind == controller::MessageKind::kTraffic ? pair : 6U + pair;
 }
 
 void lose_pattern(Rollout& rollout, std::uint32_t pattern, StepIndex step) {
@@ -71,6 +107,7 @@ struct LossCase {
   std::string name;
   controller::ControllerStrategies strategies;
   int steps_before;
+  controller::Rounds rounds{};
 };
 
 class LossOfOneStep : public testing::TestWithParam<LossCase> {};
@@ -78,7 +115,8 @@ class LossOfOneStep : public testing::TestWithParam<LossCase> {};
 // Which vehicles keep their plan and which change it, over all patterns, shows that the step is a
 // hard one. In the next step a random pattern is lost.
 TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
-  Rollout before = three_cars_that_meet(GetParam().strategies);
+  Rollout before = three_cars_that_meet(
+      ThreeCars{.strategies = GetParam().strategies, .rounds = GetParam().rounds});
   for (int i = 0; i < GetParam().steps_before; ++i) static_cast<void>(before.step());
   ASSERT_TRUE(plans_in_force_are_free(before));
 
@@ -86,10 +124,11 @@ TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
   std::mt19937 random(kSeed);
   std::map<std::string, int> outcomes;
   constexpr std::uint32_t kPatterns =
-      1U << 12U;  // traffic and predictions; strict needs no third round
+      1U << 12U;  // traffic, and predictions or outcomes; strict needs no third round
   for (std::uint32_t pattern = 0; pattern < kPatterns; pattern += test::kThinning) {
     const std::uint32_t next_pattern = static_cast<std::uint32_t>(random()) % kPatterns;
     Rollout rollout = before.clone();
+    rollout.exchange_in(GetParam().rounds);
     lose_pattern(rollout, pattern, rollout.next_step());
     std::string outcome;
     for (const coordination::Report& report : rollout.step()) {
@@ -108,19 +147,24 @@ TEST_P(LossOfOneStep, NoPatternLeadsToPlansThatMeet) {
   EXPECT_EQ(outcomes.size(), 8U) << "every mixture of old and new plans should occur";
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, LossOfOneStep,
-                         testing::Values(LossCase{"Strict3", kStrict, 3},
-                                         LossCase{"Strict5", kStrict, 5},
-                                         LossCase{"Cooperative3", kCooperative, 3},
-                                         LossCase{"Cooperative5", kCooperative, 5}),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Rules, LossOfOneStep,
+    testing::Values(LossCase{"Strict3", kStrict, 3}, LossCase{"Strict5", kStrict, 5},
+                    LossCase{"Cooperative3", kCooperative, 3},
+                    LossCase{"Cooperative5", kCooperative, 5},
+                    LossCase{"TwoRounds3", kCooperative, 3, controller::Rounds::kTwo},
+                    LossCase{"TwoRounds5", kCooperative, 5, controller::Rounds::kTwo}),
+    [](const auto& tested) { return tested.param.name; });
 
-TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
+class RandomLoss : public testing::TestWithParam<controller::Rounds> {};
+
+TEST_P(RandomLoss, OverManyStepsNeverLeadsToPlansThatMeet) {
   for (unsigned seed = 0; seed < test::num_costly_seeds(20); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     std::bernoulli_distribution is_lost(0.02 + 0.02 * (seed % 20));
-    Rollout rollout = three_cars_that_meet(kCooperative);
+    Rollout rollout =
+        three_cars_that_meet(ThreeCars{.strategies = kCooperative, .rounds = GetParam()});
     rollout.lose([&](const controller::Delivery&) { return is_lost(random); });
     for (int i = 0; i < 40; ++i) {
       static_cast<void>(rollout.step());
@@ -128,6 +172,12 @@ TEST(Loss, NoRandomLossOverManyStepsLeadsToPlansThatMeet) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Rounds, RandomLoss,
+                         testing::Values(controller::Rounds::kSequential, controller::Rounds::kTwo),
+                         [](const auto& tested) {
+                           return tested.param == controller::Rounds::kTwo ? "Two" : "Sequential";
+                         });
 
 // Both are alive, see each other standing and receive nothing: neither may consider the other a
 // standing obstacle, or both drive off at once.

@@ -1,0 +1,49 @@
+#include "planner/controller/joint_planning.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+namespace hlc::controller {
+
+std::vector<VehicleId> JointPlanning::prepare(const Controller& own) {
+  std::vector<VehicleId> not_shared;
+  std::ranges::copy_if(own.component(), std::back_inserter(not_shared),
+                       [&](VehicleId vehicle) { return !can_plan(vehicle, own); });
+  return not_shared;
+}
+
+bool JointPlanning::can_plan(VehicleId vehicle, const Controller& own) {
+  const coordination::Traffic& traffic = own.traffic_of(vehicle);
+  if (!traffic.planning) return false;
+  if (vehicle == own.options().vehicle) return true;
+  std::unique_ptr<Controller>& replica = replicas_[vehicle];
+  if (!replica) replica = others_(vehicle);
+  return replica != nullptr && replica->resume(traffic, own);
+}
+
+std::vector<VehicleId> JointPlanning::vehicles_that_matter(const Controller& own) const {
+  const coordination::CouplingGraph& coupling = own.coupling();
+  const coordination::PriorityRule plans_before = own.options().strategies.plans_before;
+  std::vector<VehicleId> found{own.options().vehicle};
+  std::ranges::copy(own.coupled(), std::back_inserter(found));
+  std::set<VehicleId> known(found.begin(), found.end());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (const VehicleId before : predecessors(coupling, found[i], plans_before)) {
+      if (known.insert(before).second) found.push_back(before);
+    }
+  }
+  std::ranges::sort(found, plans_before);
+  return found;
+}
+
+std::vector<coordination::Prediction> JointPlanning::plan(Controller& own) {
+  std::vector<coordination::Prediction> predictions;
+  for (const VehicleId vehicle : vehicles_that_matter(own)) {
+    Controller& one = vehicle == own.options().vehicle ? own : *replicas_.at(vehicle);
+    predictions.push_back(one.plan(predictions));
+  }
+  return predictions;
+}
+
+}  // namespace hlc::controller

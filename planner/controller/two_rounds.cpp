@@ -1,0 +1,75 @@
+#include "planner/controller/two_rounds.hpp"
+
+#include <algorithm>
+
+#include "planner/common/word_hash.hpp"
+#include "planner/coordination/digest.hpp"
+
+namespace hlc::controller {
+namespace {
+
+/// Of the traffic of all vehicles that the controller knows in this step.
+std::uint64_t digest_of_inputs(const Controller& own) {
+  WordHash hash;
+  for (const VehicleId vehicle : own.coupling().vehicles()) {
+    hash.add(coordination::digest_of(own.traffic_of(vehicle)));
+  }
+  return hash.value();
+}
+
+}  // namespace
+
+bool TwoRounds::begin(const Controller& own) {
+  computed_.clear();
+  not_shared_.clear();
+  is_begun_ = false;
+  if (differs_from_) return false;
+  not_shared_ = joint_.prepare(own);
+  is_begun_ = not_shared_.empty();
+  return is_begun_;
+}
+
+coordination::Outcome TwoRounds::plan(Controller& own) {
+  computed_ = joint_.plan(own);
+  inputs_ = digest_of_inputs(own);
+  return {.vehicle = own.options().vehicle,
+          .step = own.last_step(),
+          .digests = coordination::PlanDigests{.inputs = inputs_,
+                                               .plan = coordination::digest_of(own.prediction())}};
+}
+
+std::vector<coordination::Prediction> TwoRounds::known_plans(
+    Controller& own, std::span<const coordination::Prediction> predictions,
+    std::span<const coordination::Outcome> outcomes) {
+  std::vector<coordination::Prediction> known;
+  for (const VehicleId other : own.coupled()) {
+    const auto computed = std::ranges::find(computed_, other, &coordination::Prediction::vehicle);
+    const std::uint64_t digest = coordination::digest_of(*computed);
+    const auto* const outcome = find_message(outcomes, other, own.last_step());
+    const auto* const prediction = find_message(predictions, other, own.last_step());
+    bool is_same = prediction != nullptr && coordination::digest_of(*prediction) == digest;
+    if (outcome != nullptr && outcome->digests) {
+      is_same = outcome->digests->plan == digest;
+      compare(other, is_same, *outcome->digests, own);
+    }
+    if (!is_same) own.disregard(other);
+    if (is_same) {
+      known.push_back(*computed);
+    } else if (prediction != nullptr) {
+      known.push_back(*prediction);
+    }
+  }
+  return known;
+}
+
+/// A vehicle that is missing counts with what each controller has seen of it before: then the
+/// inputs are more than the traffic.
+void TwoRounds::compare(VehicleId vehicle, bool is_same, const coordination::PlanDigests& received,
+                        const Controller& own) {
+  const bool is_proof = !is_same && received.inputs == inputs_ && own.missing().empty();
+  std::size_t& steps = differing_steps_[vehicle];
+  steps = is_proof ? steps + 1 : 0;
+  if (steps >= own.options().horizon_steps && !differs_from_) differs_from_ = vehicle;
+}
+
+}  // namespace hlc::controller

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/controller/joint_planning.hpp"
+
+namespace hlc::controller {
+
+/// A step of one controller with two rounds of messages, however many vehicles there are: traffic,
+/// from which each controller computes the plans of all that matter to it (JointPlanning), and
+/// outcomes with the digests of the plans.
+///
+/// **Safety.** The rule is `strict` (coordination/commit.hpp); what differs is how i gets to know
+/// new_j. It has computed it, and j's outcome shows the digest of what j has computed for itself:
+/// if it is the same, new_j is known as surely as by a prediction. If it is another one, or did not
+/// come, new_j was not received: new_i then comes into force only if it is free of everything that
+/// j can reach. So any mixture of old and new plans is free pair by pair, whatever is lost, late or
+/// repeated, whatever one controller has received and another has not, and whatever bits it
+/// computes. In particular a plan that was computed around the wrong new plan of a predecessor does
+/// not count as free of it.
+///
+/// **Who cannot share.** The way is chosen by the component, from its traffic: two rounds if all of
+/// its vehicles can be planned for, otherwise the sequential way. Without loss all its members
+/// choose the same. Where one has received other traffic than another, either takes the other's
+/// message for what it is: a prediction instead of an outcome counts, with the areas in it; an
+/// outcome instead of a prediction counts as not received. A vehicle that misses another one knows
+/// that nobody can compute its plan, and publishes its prediction, too.
+///
+/// A controller whose digests differ from another's for a horizon although both had the same inputs
+/// computes other bits (another mathematical library): it shares no more (`differs_from`).
+class TwoRounds {
+ public:
+  explicit TwoRounds(ControllerFactory others) : joint_(std::move(others)) {}
+
+  /// The vehicle whose plans differ although the inputs agree; from then on `begin` returns false.
+  [[nodiscard]] std::optional<VehicleId> differs_from() const { return differs_from_; }
+  /// Vehicles of the component that could not be planned for in this step.
+  [[nodiscard]] std::span<const VehicleId> not_shared() const { return not_shared_; }
+
+  /// Whether this step has two rounds. @param own  after `couple`
+  [[nodiscard]] bool begin(const Controller& own);
+  [[nodiscard]] bool is_begun() const { return is_begun_; }
+
+  /// Plans for all that matter, the own vehicle included. @pre is_begun
+  [[nodiscard]] coordination::Outcome plan(Controller& own);
+
+  /// The new plans of coupled vehicles that are known now: computed and confirmed, or received.
+  /// What `own` has respected without its being confirmed counts as not respected from now on. To
+  /// be followed by `own.commit`. @pre plan
+  [[nodiscard]] std::vector<coordination::Prediction> known_plans(
+      Controller& own, std::span<const coordination::Prediction> predictions,
+      std::span<const coordination::Outcome> outcomes);
+
+ private:
+  void compare(VehicleId vehicle, bool is_same, const coordination::PlanDigests& received,
+               const Controller& own);
+
+  JointPlanning joint_;
+  bool is_begun_{};
+  std::vector<VehicleId> not_shared_;
+  std::vector<coordination::Prediction> computed_;
+  std::uint64_t inputs_{};  ///< digest
+  std::map<VehicleId, std::size_t> differing_steps_;
+  std::optional<VehicleId> differs_from_;
+};
+
+}  // namespace hlc::controller
