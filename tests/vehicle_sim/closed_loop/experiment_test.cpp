@@ -50,6 +50,53 @@ TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
   EXPECT_NE(summary_of(scenario, {.steps = 30}).trace_sha256, trace);
 }
 
+struct RoundsCase {
+  std::string scenario;
+  std::optional<std::size_t> cars;
+  std::optional<std::uint64_t> noise_seed;
+  std::uint64_t steps{};
+};
+
+void PrintTo(const RoundsCase& one, std::ostream* out) { *out << one.scenario; }
+
+class TwoRounds : public testing::TestWithParam<RoundsCase> {};
+
+// Vehicles deviate from their plans, and areas contain predicted drifts. Predictions are lost: with
+// two rounds nobody needs one.
+TEST_P(TwoRounds, DriveAsTheSequentialWayDoes) {
+  scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/" + GetParam().scenario + ".yaml",
+       .cars = GetParam().cars});
+  ExperimentOptions options{.steps = GetParam().steps, .noise_seed = GetParam().noise_seed};
+  const Experiment sequential = drive_experiment(scenario, options);
+  scenario.rounds = controller::Rounds::kTwo;
+  options.rules.is_lost = [](const controller::Delivery& delivery) {
+    return delivery.kind == controller::MessageKind::kPrediction;
+  };
+  const Experiment two = drive_experiment(scenario, options);
+  ASSERT_EQ(two.reports.size(), sequential.reports.size());
+  std::size_t num_coupled = 0;
+  for (std::size_t i = 0; i < two.reports.size(); ++i) {
+    const coordination::Report& a = sequential.reports[i].report;
+    const coordination::Report& b = two.reports[i].report;
+    num_coupled += a.coupled.size();
+    ASSERT_EQ(a.vehicle, b.vehicle);
+    ASSERT_EQ(a.status, b.status) << "step " << a.step.value;
+    ASSERT_EQ(a.planned_pose, b.planned_pose) << "step " << a.step.value;
+    ASSERT_EQ(a.cost_m2, b.cost_m2) << "step " << a.step.value;
+    ASSERT_EQ(a.expanded, b.expanded) << "step " << a.step.value;
+    ASSERT_EQ(a.waiting, b.waiting) << "step " << a.step.value;
+  }
+  EXPECT_GT(num_coupled, GetParam().steps);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, TwoRounds,
+                         testing::Values(RoundsCase{"paper_three_cars", {}, 5, 100},
+                                         RoundsCase{"lab_three_cars", {}, 1, 100},
+                                         RoundsCase{"lab_cars", 8, 1, 60},
+                                         RoundsCase{"circle", 6, {}, 60}),
+                         [](const auto& tested) { return tested.param.scenario; });
+
 // Six cars on their way across a circle, and nobody makes room: 4, 5 and 6 get through, 1, 2 and 3
 // stand in each other's way forever.
 TEST(Experiment, SixCarsOnACircleWaitForEachOtherAndSayForWhom) {
