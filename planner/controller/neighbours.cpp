@@ -37,7 +37,7 @@ void Neighbours::receive(std::span<const coordination::Traffic> traffic,
       missing_.push_back(other);
       continue;
     }
-    traffic_[other] = *message;  // over the former one: as many areas again
+    traffic_[other] = std::make_shared<const coordination::Traffic>(*message);
     last_received_[other] = now_;
   }
   forget_if_steps_are_missing();
@@ -49,7 +49,7 @@ Neighbours Neighbours::in_place_of(VehicleId other, const coordination::Traffic&
   Neighbours result = *this;
   result.own_ = other;
   result.traffic_.erase(other);
-  result.traffic_[own_] = own;
+  result.traffic_[own_] = std::make_shared<const coordination::Traffic>(own);
   return result;
 }
 
@@ -63,7 +63,7 @@ void Neighbours::forget_if_steps_are_missing() {
 
 bool Neighbours::is_received(VehicleId vehicle) const {
   const auto found = traffic_.find(vehicle);
-  return found != traffic_.end() && found->second.step == now_;
+  return found != traffic_.end() && found->second->step == now_;
 }
 
 bool Neighbours::is_received_by_any(VehicleId vehicle) const {
@@ -75,7 +75,7 @@ bool Neighbours::is_received_by_any(VehicleId vehicle) const {
 std::vector<const coordination::Traffic*> Neighbours::received() const {
   std::vector<const coordination::Traffic*> result;
   for (const auto& [vehicle, traffic] : traffic_) {
-    if (traffic.step == now_) result.push_back(&traffic);
+    if (traffic->step == now_) result.push_back(traffic.get());
   }
   return result;
 }

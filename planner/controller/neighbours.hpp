@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -66,7 +67,7 @@ class Neighbours {
   [[nodiscard]] std::vector<const coordination::Traffic*> received() const;
   /// @pre it was received in this step
   [[nodiscard]] const coordination::Traffic& traffic_of(VehicleId vehicle) const {
-    return traffic_.at(vehicle);
+    return *traffic_.at(vehicle);
   }
   /// Active vehicles that were not received, in the order of the observation. Valid after
   /// `receive`.
@@ -90,8 +91,9 @@ class Neighbours {
   coordination::MissingVehicleRules rules_;
   StepIndex now_;
   std::optional<StepIndex> last_looked_;  ///< last step of `receive`
-  /// The last of each; of this step only if its step matches
-  std::map<VehicleId, coordination::Traffic> traffic_;
+  /// The last of each; of this step only if its step matches. Shared with copies, of which there is
+  /// one for each other vehicle in a step with two rounds.
+  std::map<VehicleId, std::shared_ptr<const coordination::Traffic>> traffic_;
   std::vector<VehicleId> missing_;
   std::map<VehicleId, StepIndex> last_received_;
   /// Last step in which the vehicle's controller may have agreed to something: received or present.

@@ -135,7 +135,7 @@ TEST_P(JointPlans, AreThoseOfTheSequentialWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, JointPlans,
-                         testing::Values(Run{"LabCars", "lab_cars.yaml", 20, 40},
+                         testing::Values(Run{"LabCars", "lab_cars.yaml", 20, 20},
                                          Run{"PaperThreeCars", "paper_three_cars.yaml", {}, 100},
                                          Run{"Circle", "circle.yaml", 6, 60},
                                          Run{"LabThreeCars", "lab_three_cars.yaml", {}, 60},
