@@ -96,6 +96,8 @@ in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 [[ -z $seed ]] || seed=$((10#$seed))
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 [[ -z $stamps || $stamps == exact || $stamps == lab ]] || fail "--stamps = $stamps, must be one of exact, lab"
+[[ -z $gains_scale || $stamps != lab ]] || fail "--stamps = lab with --gains_scale, must be exact: the lab's follower has no gains"
+[[ -z $gains_scale ]] || stamps=exact
 case "$preset" in
   release | debug | asan | tsan) ;;
   *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;

@@ -13,6 +13,17 @@ namespace {
 /// Share of the safety margin that is reserved for the error of a one-step prediction.
 constexpr double kUnderWayShare = 0.2;
 
+/// Adds `more` to `areas`, step by step. @pre more.first <= areas.first
+void cover(const coordination::OccupiedAreas& more, coordination::OccupiedAreas& areas) {
+  const auto add = [](const ConvexPolygon& one, ConvexPolygon& area) {
+    area = convex_hull(std::vector{area, one});
+  };
+  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
+    add(more.during({areas.first.value + i}), areas.areas_m[i]);
+  }
+  add(more.final_area_m, areas.final_area_m);
+}
+
 }  // namespace
 
 PlanInForce::PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
@@ -37,6 +48,7 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   const vehicle::VehicleParameters& vehicle = automaton_->vehicle;
   moved_.reset();
   outside_area_m_ = {};
+  is_beside_ = false;
   deviation_m_ = 0.0;
   if (own == nullptr) {  // the vehicle's position is unknown: it may stand anywhere on its plan
     moved_ = plan_;
@@ -56,18 +68,20 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   const double off_m = (own->pose.position_m() - planned.pose.position_m()).norm();
   const bool is_outside =
       deviation_m_ > vehicle.safety_margin_m && !is_inside_announced(own->pose, seen_.step);
-  is_lost_ = is_lost_ && is_outside;
+  const bool is_disturbed = is_outside && deviation_m_ > rules_.tracking_error_max_m;
+  is_beside_ = is_outside && !is_disturbed;
+  is_lost_ = is_lost_ && is_disturbed;
   const DeviationCheck result{.deviation_m = deviation_m_,
-                              .is_disturbed = is_outside,
+                              .is_disturbed = is_disturbed,
                               .is_lost = is_lost_,
-                              .is_elsewhere = is_outside && off_m > vehicle::kStopBound_m};
+                              .is_elsewhere = is_disturbed && off_m > vehicle::kStopBound_m};
   const double reanchor_m =
       std::max(rules_.reanchor_share * vehicle.safety_margin_m, rules_.tracking_error_max_m);
-  if (!is_outside && off_m <= reanchor_m) return result;
+  if (!is_disturbed && off_m <= reanchor_m) return result;
   const bool stands =
       plan_.end() <= seen_.step &&
       std::abs(own->speed_mps) <= coordination::MissingVehicleRules{}.standing_speed_mps;
-  if (is_outside && stands) {
+  if (is_disturbed && stands) {
     ReplacedPlans replaced = std::move(replaced_);
     *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
     replaced_ = std::move(replaced);
@@ -76,8 +90,8 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   }
   moved_ = plan_.moved(planned.pose, automaton::pose_of_measured(own->pose, planned.steering_rad,
                                                                  vehicle, automaton_->identified));
-  if (!is_outside && !stays_inside_announced(*moved_, now)) moved_.reset();
-  if (is_outside) note_outside(own->pose, own->speed_mps, now);
+  if (!is_disturbed && !stays_inside_announced(*moved_, now)) moved_.reset();
+  if (is_disturbed) note_outside(own->pose, own->speed_mps, now);
   return result;
 }
 
@@ -143,6 +157,13 @@ ConvexPolygon PlanInForce::with_step(ConvexPolygon way, StepIndex step) const {
   return convex_hull(areas);
 }
 
+coordination::OccupiedAreas PlanInForce::standing_at(const Pose& pose, StepIndex from) const {
+  return {.first = from,
+          .areas_m = {},
+          .final_area_m = footprint_area(automaton_->vehicle.footprint, pose,
+                                         automaton_->vehicle.safety_margin_m)};
+}
+
 /// The areas of the other plans that may be driven grow from step to step: the vehicle may have
 /// stopped anywhere on the way.
 coordination::OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
@@ -154,6 +175,10 @@ coordination::OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
   if (from < end) areas.areas_m.reserve(end.value - from.value);
   for (StepIndex step = from; step < end; ++step.value) {
     areas.areas_m.push_back(announced_.during(step));
+  }
+  if (is_beside_) {
+    cover(areas_of(plan_, from), areas);
+    if (plan_.end() <= seen_.step) cover(standing_at(seen_.pose, from), areas);
   }
   if (outside_area_m_.empty() && former.empty()) return areas;
   ConvexPolygon way = outside_area_m_;

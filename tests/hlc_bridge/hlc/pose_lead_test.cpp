@@ -12,7 +12,9 @@ using controller::Controller;
 using controller::east_bound::at;
 using controller::east_bound::following;
 using controller::east_bound::seen;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Lines of a car that drives east from step 100 on, each pose measured `ahead_s` too early, and in
 /// every fourth step far off.
@@ -39,12 +41,15 @@ TEST(PoseLead, WithinTheToleranceIsNotLogged) {
 }
 
 TEST(PoseLead, BeyondTheToleranceIsLoggedOnceWithItsValue) {
-  EXPECT_THAT(lines(0.020, 60), testing::ElementsAre(HasSubstr("about 20 ms ahead")));
-  EXPECT_THAT(lines(-0.008, 60), testing::ElementsAre(HasSubstr("about -8 ms ahead")));
+  EXPECT_THAT(lines(0.020, 60), testing::ElementsAre(HasSubstr("is 0.000: set it to 0.020")));
+  EXPECT_THAT(lines(-0.008, 60),
+              testing::ElementsAre(AllOf(HasSubstr("about -8 ms ahead"), HasSubstr("its clock"),
+                                         Not(HasSubstr("set it")))));
 }
 
 TEST(PoseLead, OfFewStepsIsNotJudged) {
-  EXPECT_TRUE(lines(0.020, 25).empty()) << "the first one stands";
+  EXPECT_TRUE(lines(0.020, PoseLeadCheck::kLeastSteps + 1).empty()) << "in two it is too slow";
+  EXPECT_EQ(lines(0.020, PoseLeadCheck::kLeastSteps + 2).size(), 1U);
 }
 
 TEST(PoseLead, OfAStandingOrUnseenCarIsNotJudged) {

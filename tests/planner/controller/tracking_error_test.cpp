@@ -76,21 +76,65 @@ TEST(TrackingError, APoseOfATimeAfterTheListsStepBeganIsComparedWithThePlanOfTha
   const vehicle::State then =
       one->plan_in_force().state_at({106}, 0.04, automaton::paper_automaton()->vehicle);
   coordination::MeasuredVehicle measured = seen(1, then.pose.x_m, then.pose.y_m, then.speed_mps);
-  measured.age_s = -0.04;
+  measured.pose_lead_s = 0.04;
   EXPECT_NEAR(step(*one, at(106, {measured})).deviation_m, 0.0, 1e-9);
 }
 
 TEST(SeenAt, ATimeLiesInTheStepThatContainsIt) {
-  const auto time_of = [](double age_s) {
-    coordination::MeasuredVehicle measured{.vehicle = {1}, .age_s = age_s};
-    const SeenAt at = seen_at(measured, {10}, 0.2);
+  const auto seen = [](StepIndex now, double age_s, double lead_s) {
+    const SeenAt at = seen_at({.vehicle = {1}, .age_s = age_s, .pose_lead_s = lead_s}, now, 0.2);
     EXPECT_GE(at.time_s, 0.0);
     EXPECT_LT(at.time_s, 0.2 + 1e-12);
+    EXPECT_LE(at.step, now);
     return 0.2 * static_cast<double>(at.step.value) + at.time_s;
   };
-  for (const double age_s : {-0.25, -0.2, -0.04, 0.0, 0.04, 0.2, 0.25}) {
-    EXPECT_NEAR(time_of(age_s), 2.0 - age_s, 1e-9) << age_s;
+  for (const double age_s : {-0.15, -0.04, 0.0, 0.04, 0.2, 0.25}) {
+    for (const double lead_s : {0.0, 0.02}) {
+      EXPECT_NEAR(seen({10}, age_s, lead_s), 2.0 - age_s + lead_s, 1e-9) << age_s;
+    }
   }
+  EXPECT_NEAR(seen({10}, -0.19, 0.1), 2.2, 1e-6) << "not after the step";
+  EXPECT_EQ(seen({0}, 0.06, 0.0), 0.0) << "not before all steps";
+}
+
+/// A car that stands `off_m` beside its plan, with the lab's tracking errors.
+class BesideItsPlan : public testing::Test {
+ protected:
+  static constexpr double kBound_m = 0.035;
+
+  [[nodiscard]] coordination::Traffic traffic_at(double off_m) {
+    one_.emplace(ControllerOptions{.vehicle = {1}, .deviation = {.tracking_error_max_m = kBound_m}},
+                 subgraph(), road::ReferencePath({Point(0.0, 0.0), Point(9.0, 0.0)}, false),
+                 road::Corridor{});
+    static_cast<void>(one_->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+    const coordination::Traffic traffic = one_->observe(at(101, {seen(1, 0.0, off_m)}));
+    one_->couple({});
+    static_cast<void>(one_->plan({}));
+    report_ = one_->commit({}, {});
+    return traffic;
+  }
+  [[nodiscard]] static bool holds_car(const ConvexPolygon& area, double off_m) {
+    const vehicle::VehicleParameters& vehicle = automaton::paper_automaton()->vehicle;
+    return contains(area, footprint_area(vehicle.footprint, {0.0, off_m, 0.0}, 0.0));
+  }
+
+  std::optional<Controller> one_;
+  coordination::Report report_;
+};
+
+TEST_F(BesideItsPlan, ByNoMoreThanUndisturbedCarsItPlansOnAndAnnouncesWhereItStands) {
+  for (const double off_m : {0.005, 0.015, 0.025, 0.034}) {
+    const coordination::Traffic traffic = traffic_at(off_m);
+    EXPECT_EQ(report_.status, coordination::StepStatus::kPlanned) << off_m;
+    for (const ConvexPolygon& area : traffic.running.areas_m) EXPECT_TRUE(holds_car(area, off_m));
+    EXPECT_TRUE(holds_car(traffic.running.final_area_m, off_m)) << off_m;
+  }
+}
+
+TEST_F(BesideItsPlan, ByMoreItWasDisturbed) {
+  static_cast<void>(traffic_at(0.036));
+  EXPECT_NEAR(report_.deviation_m, 0.036, 1e-9);
+  EXPECT_EQ(one_->plan_in_force().pose_at({101}).y_m, 0.036) << "it stands: its plan, too";
 }
 
 }  // namespace
