@@ -154,6 +154,8 @@ choices=(--scenario "$scenario" --profile "$profile")
 appends=() # a restarted car keeps its last pose, and its record continues
 if [[ $only == vehicle && -s $out/vehicle_${ids[0]}.csv ]]; then
   appends=(--append_record)
+fi
+if [[ $only == vehicle && -s $out/vehicle_${ids[0]}.csv && " $*" != *" --pose"* ]]; then
   last=$(for one in "${ids[@]}"; do
     grep -E '^[0-9]+(,[^,]+){7}$' "$out/vehicle_$one.csv" | tail -n 1 | cut -d, -f2-4
   done)

@@ -64,7 +64,8 @@ void declare(CLI::App& app, Flags& flags) {
           "default: environment variable HLC_SCENARIO, else the only line of the file "
           "default_scenario beside this program, else lab_three_cars");
   app.add_option("--node_id", flags.node_id,
-                 "name in the log; default: high_level_controller_<id>");
+                 "name in the log, with several vehicles _<id> is appended; default: "
+                 "high_level_controller_<id>");
   app.add_option("--dds_initial_peer", flags.dds_initial_peer,
                  "accepted and ignored: the lab's scripts pass it, but no program reads it");
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
@@ -94,6 +95,9 @@ hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::Vehicle
   hlc::process::HlcProcessOptions options;
   options.version = hlc::apps::program_version();
   options.node_id = flags.node_id.empty() ? hlc::controller_name(id.value) : flags.node_id;
+  if (!flags.node_id.empty() && flags.vehicle_ids.size() > 1) {
+    options.node_id += fmt::format("_{}", id.value);
+  }
   if (!flags.dds_initial_peer.empty()) {
     spdlog::warn("{}: --dds_initial_peer = {} is ignored, as by the lab's own programs",
                  options.node_id, flags.dds_initial_peer);

@@ -20,7 +20,7 @@ double median(const std::deque<double>& values) {
 
 /// e of the header; none if the vehicle is not seen, or was not to drive.
 std::optional<double> time_ahead_s(const controller::Controller& controller,
-                              const controller::Observation& observation) {
+                                   const controller::Observation& observation) {
   const coordination::MeasuredVehicle* own = observation.measured(controller.options().vehicle);
   if (own == nullptr || !controller.has_plan()) return std::nullopt;
   const automaton::UniversalAutomaton& automaton = controller.subgraph().automaton();
@@ -38,7 +38,8 @@ std::optional<double> time_ahead_s(const controller::Controller& controller,
 
 std::optional<std::string> PoseLeadCheck::note(const controller::Controller& controller,
                                                const controller::Observation& observation) {
-  const std::optional<double> ahead = is_logged_ ? std::nullopt : time_ahead_s(controller, observation);
+  const std::optional<double> ahead =
+      is_logged_ ? std::nullopt : time_ahead_s(controller, observation);
   if (!ahead) return std::nullopt;
   times_ahead_s_.push_back(*ahead);
   if (times_ahead_s_.size() > kMostSteps) times_ahead_s_.pop_front();
@@ -55,6 +56,7 @@ std::optional<std::string> PoseLeadCheck::note(const controller::Controller& con
   if (lead_s < 0.0 || lead_s > vehicle::kMostPoseLead_s) {
     return line + "the vehicle does not keep to its plans in time, or its clock is wrong";
   }
+  if (!controller.options().lab) return line + "the scenario names no lab (key lab)";
   return line + fmt::format("set it to {:.3f}, if the other vehicles show the same", lead_s);
 }
 

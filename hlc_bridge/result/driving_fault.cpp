@@ -26,11 +26,11 @@ std::string driving_fault(const RunSummary& summary) {
   for (const VehicleSummary& vehicle : summary.vehicles) {
     const double deviation_m = vehicle.deviation_max_m.value_or(0.0);
     if (deviation_m <= allowed_m) continue;
-    return fmt::format("vehicle {} deviated by up to {:.1f} mm from its plan, more than {} {:.1f} mm",
-                       vehicle.id.value, 1e3 * deviation_m,
-                       allowed_m > margin_m ? "undisturbed ones of its lab do,"
-                                            : "the safety margin of",
-                       1e3 * allowed_m);
+    return fmt::format(
+        "vehicle {} deviated by up to {:.1f} mm from its plan, more than {} {:.1f} mm",
+        vehicle.id.value, 1e3 * deviation_m,
+        allowed_m > margin_m ? "undisturbed ones of its lab do," : "the safety margin of",
+        1e3 * allowed_m);
   }
   return "";
 }

@@ -27,8 +27,8 @@ TEST(LabFollower, WithoutAFollowableCommandItStops) {
   for (const TrajectoryCommand* command :
        {static_cast<const TrajectoryCommand*>(nullptr), &empty}) {
     const auto [input, status] = follower().decide(0, moving, command);
-    EXPECT_EQ(status, command == nullptr ? FollowerStatus::kNoCommand
-                                         : FollowerStatus::kNotFollowable);
+    EXPECT_EQ(status,
+              command == nullptr ? FollowerStatus::kNoCommand : FollowerStatus::kNotFollowable);
     EXPECT_EQ(input, vehicle::stop_input(0.6));
   }
 }
