@@ -157,13 +157,6 @@ ConvexPolygon PlanInForce::with_step(ConvexPolygon way, StepIndex step) const {
   return convex_hull(areas);
 }
 
-coordination::OccupiedAreas PlanInForce::standing_at(const Pose& pose, StepIndex from) const {
-  return {.first = from,
-          .areas_m = {},
-          .final_area_m = footprint_area(automaton_->vehicle.footprint, pose,
-                                         automaton_->vehicle.safety_margin_m)};
-}
-
 /// The areas of the other plans that may be driven grow from step to step: the vehicle may have
 /// stopped anywhere on the way.
 coordination::OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
@@ -176,10 +169,7 @@ coordination::OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
   for (StepIndex step = from; step < end; ++step.value) {
     areas.areas_m.push_back(announced_.during(step));
   }
-  if (is_beside_) {
-    cover(areas_of(plan_, from), areas);
-    if (plan_.end() <= seen_.step) cover(standing_at(seen_.pose, from), areas);
-  }
+  if (is_beside_) cover(areas_of(plan_, from), areas);
   if (outside_area_m_.empty() && former.empty()) return areas;
   ConvexPolygon way = outside_area_m_;
   for (StepIndex step = seen_.step; step < from; ++step.value) {

@@ -60,8 +60,8 @@ struct DeviationCheck {
 ///    stands. Agreements that the others made before they received this cannot be revoked;
 ///    everything they do from then on keeps clear. One that deviates by no more than undisturbed
 ///    ones do (`tracking_error_max_m`) returns to its plan by itself: it plans on, and its traffic
-///    announces the areas of its predicted drive, too (rule 2), and, where its plan stands, where
-///    it stands itself. The others keep clear of them from then on.
+///    announces the areas of its predicted drive, too (rule 2). The others keep clear of them from
+///    then on.
 ///
 /// 5. A vehicle that is not seen is lost until it is seen on a plan, or re-anchored. No command is
 ///    sent to it (in real time; in logical time none is lost): it drives the last command that it
@@ -150,7 +150,6 @@ class PlanInForce {
   [[nodiscard]] bool is_inside_announced(const Pose& measured, StepIndex step,
                                          double reserve_m = 0.0) const;
   [[nodiscard]] double deviation_from(const coordination::Plan& plan) const;
-  [[nodiscard]] coordination::OccupiedAreas standing_at(const Pose& pose, StepIndex from) const;
   void return_to_driven_plan(StepIndex now);
   void note_outside(const Pose& pose, double speed_mps, StepIndex now);
   [[nodiscard]] double tolerated_m() const;

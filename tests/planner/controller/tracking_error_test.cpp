@@ -97,44 +97,72 @@ TEST(SeenAt, ATimeLiesInTheStepThatContainsIt) {
   EXPECT_EQ(seen({0}, 0.06, 0.0), 0.0) << "not before all steps";
 }
 
-/// A car that stands `off_m` beside its plan, with the lab's tracking errors.
+/// A car that is not where its plan is, with the lab's tracking errors.
 class BesideItsPlan : public testing::Test {
  protected:
   static constexpr double kBound_m = 0.035;
 
-  [[nodiscard]] coordination::Traffic traffic_at(double off_m) {
-    one_.emplace(ControllerOptions{.vehicle = {1}, .deviation = {.tracking_error_max_m = kBound_m}},
-                 subgraph(), road::ReferencePath({Point(0.0, 0.0), Point(9.0, 0.0)}, false),
-                 road::Corridor{});
-    static_cast<void>(one_->stand_by(at(100, {seen(1, 0.0, 0.0)})));
-    const coordination::Traffic traffic = one_->observe(at(101, {seen(1, 0.0, off_m)}));
-    one_->couple({});
-    static_cast<void>(one_->plan({}));
-    report_ = one_->commit({}, {});
+  BesideItsPlan() { static_cast<void>(one_.stand_by(at(100, {seen(1, 0.0, 0.0)}))); }
+
+  void drive(int steps) {
+    for (int i = 0; i < steps; ++i) static_cast<void>(step_seen(Point::Zero()));
+  }
+  /// The traffic of a step in which the car is seen that much off its plan.
+  coordination::Traffic step_seen(const Point& off_m) {
+    car_ = following(one_, ++step_);
+    car_.pose.x_m += off_m.x();
+    car_.pose.y_m += off_m.y();
+    const coordination::Traffic traffic = one_.observe(at(step_, {car_}));
+    one_.couple({});
+    static_cast<void>(one_.plan({}));
+    report_ = one_.commit({}, {});
     return traffic;
   }
-  [[nodiscard]] static bool holds_car(const ConvexPolygon& area, double off_m) {
-    const vehicle::VehicleParameters& vehicle = automaton::paper_automaton()->vehicle;
-    return contains(area, footprint_area(vehicle.footprint, {0.0, off_m, 0.0}, 0.0));
+  [[nodiscard]] bool holds_car(const ConvexPolygon& area) const {
+    return contains(area, footprint_area(automaton::paper_automaton()->vehicle.footprint, car_.pose,
+                                         0.0));
   }
 
-  std::optional<Controller> one_;
+  Controller one_{
+      ControllerOptions{.vehicle = {1}, .deviation = {.tracking_error_max_m = kBound_m}},
+      subgraph(), road::ReferencePath({Point(0.0, 0.0), Point(9.0, 0.0)}, false), road::Corridor{}};
+  std::uint64_t step_{100};
+  coordination::MeasuredVehicle car_;
   coordination::Report report_;
 };
 
-TEST_F(BesideItsPlan, ByNoMoreThanUndisturbedCarsItPlansOnAndAnnouncesWhereItStands) {
-  for (const double off_m : {0.005, 0.015, 0.025, 0.034}) {
-    const coordination::Traffic traffic = traffic_at(off_m);
-    EXPECT_EQ(report_.status, coordination::StepStatus::kPlanned) << off_m;
-    for (const ConvexPolygon& area : traffic.running.areas_m) EXPECT_TRUE(holds_car(area, off_m));
-    EXPECT_TRUE(holds_car(traffic.running.final_area_m, off_m)) << off_m;
+const std::vector<Point> kUndisturbed_m{{0.0, 0.005},  {0.0, 0.025},  {0.0, -0.034},
+                                        {0.025, 0.0},  {-0.025, 0.0}, {-0.034, 0.0},
+                                        {0.020, 0.020}};
+
+TEST_F(BesideItsPlan, WhereItStandsByNoMoreThanUndisturbedCarsItAnnouncesThatForAllTime) {
+  for (const Point& off_m : kUndisturbed_m) {
+    static_cast<void>(one_.stand_by(at(++step_, {seen(1, 0.0, 0.0)})));
+    const coordination::Traffic traffic = step_seen(off_m);
+    SCOPED_TRACE(off_m.transpose());
+    EXPECT_EQ(report_.status, coordination::StepStatus::kPlanned);
+    EXPECT_EQ(one_.plan_in_force().pose_at({step_}).x_m, 0.0) << "not anchored there";
+    for (const ConvexPolygon& area : traffic.running.areas_m) EXPECT_TRUE(holds_car(area));
+    EXPECT_TRUE(holds_car(traffic.running.final_area_m));
   }
 }
 
-TEST_F(BesideItsPlan, ByMoreItWasDisturbed) {
-  static_cast<void>(traffic_at(0.036));
-  EXPECT_NEAR(report_.deviation_m, 0.036, 1e-9);
-  EXPECT_EQ(one_->plan_in_force().pose_at({101}).y_m, 0.036) << "it stands: its plan, too";
+TEST_F(BesideItsPlan, WhereItDrivesByNoMoreThanUndisturbedCarsItPlansOnFromItsPlan) {
+  for (const Point& off_m : kUndisturbed_m) {
+    drive(4);
+    const double next_m = one_.plan_in_force().pose_at({step_ + 2}).y_m;
+    const coordination::Traffic traffic = step_seen(off_m);
+    SCOPED_TRACE(off_m.transpose());
+    EXPECT_EQ(report_.status, coordination::StepStatus::kPlanned) << to_string(report_.reason);
+    EXPECT_EQ(traffic.next_pose.y_m, next_m);
+    EXPECT_TRUE(holds_car(traffic.running.areas_m.front()));
+  }
+}
+
+TEST_F(BesideItsPlan, WhereItDrivesByMoreItWasDisturbed) {
+  drive(4);
+  static_cast<void>(step_seen({0.0, 0.050}));
+  EXPECT_EQ(report_.reason, coordination::FallbackReason::kDeviation);
 }
 
 }  // namespace
