@@ -23,7 +23,7 @@ TEST(SharedMemory, AFileIsUsedByTheProcessesThatHaveItMapped) {
   const fs::path proc = folder / "proc";
   for (const char* name :
        {"fastrtps_1234", "fastrtps_1234_el", "fastrtps_port7411", "sem.fastrtps_port7411_mutex",
-        "fastrtps_port7420", "fastrtps_port7420_el", "sem.fastrtps_port7420_mutex",
+        "fastrtps_port7420", "fastrtps_port7420_sl", "sem.fastrtps_port7420_mutex",
         "fast_datasharing_0a_1", "pulse-shm-1"}) {
     write(shm / name, "12345678");
   }
