@@ -21,8 +21,8 @@ bool is_number(const std::string& text) {
          std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
 }
 
-/// The segment or port to which a lock file (..._el, ..._sl) or a semaphore (sem...._mutex) belongs: in use
-/// if that is. Other names as they are.
+/// The segment or port to which a lock file (..._el, ..._sl) or a semaphore (sem...._mutex)
+/// belongs: in use if that is. Other names as they are.
 std::string guarded_by(std::string name) {
   constexpr std::string_view kSemaphore = "sem.";
   for (const std::string_view suffix : {"_el", "_sl", "_mutex"}) {

@@ -69,7 +69,7 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   const bool is_outside =
       deviation_m_ > vehicle.safety_margin_m && !is_inside_announced(own->pose, seen_.step);
   const bool is_disturbed = is_outside && deviation_m_ > rules_.tracking_error_max_m;
-  is_beside_ = is_outside && !is_disturbed;
+  is_beside_ = is_outside != is_disturbed;
   is_lost_ = is_lost_ && is_disturbed;
   const DeviationCheck result{.deviation_m = deviation_m_,
                               .is_disturbed = is_disturbed,
@@ -82,10 +82,7 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
       plan_.end() <= seen_.step &&
       std::abs(own->speed_mps) <= coordination::MissingVehicleRules{}.standing_speed_mps;
   if (is_disturbed && stands) {
-    ReplacedPlans replaced = std::move(replaced_);
-    *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
-    replaced_ = std::move(replaced);
-    deviation_m_ = result.deviation_m;
+    anchor_at(own->pose, now);
     return {.deviation_m = deviation_m_, .is_disturbed = false, .is_reanchored = true};
   }
   moved_ = plan_.moved(planned.pose, automaton::pose_of_measured(own->pose, planned.steering_rad,
@@ -93,6 +90,15 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   if (!is_disturbed && !stays_inside_announced(*moved_, now)) moved_.reset();
   if (is_disturbed) note_outside(own->pose, own->speed_mps, now);
   return result;
+}
+
+/// The vehicle stands where its plan did not lead.
+void PlanInForce::anchor_at(const Pose& pose, StepIndex now) {
+  ReplacedPlans replaced = std::move(replaced_);
+  const double deviation_m = deviation_m_;
+  *this = PlanInForce(automaton_, *standstill_, rules_, pose, now);
+  replaced_ = std::move(replaced);
+  deviation_m_ = deviation_m;
 }
 
 /// At the last sight.

@@ -112,15 +112,15 @@ class BesideItsPlan : public testing::Test {
     car_ = following(one_, ++step_);
     car_.pose.x_m += off_m.x();
     car_.pose.y_m += off_m.y();
-    const coordination::Traffic traffic = one_.observe(at(step_, {car_}));
+    coordination::Traffic traffic = one_.observe(at(step_, {car_}));
     one_.couple({});
     static_cast<void>(one_.plan({}));
     report_ = one_.commit({}, {});
     return traffic;
   }
   [[nodiscard]] bool holds_car(const ConvexPolygon& area) const {
-    return contains(area, footprint_area(automaton::paper_automaton()->vehicle.footprint, car_.pose,
-                                         0.0));
+    return contains(
+        area, footprint_area(automaton::paper_automaton()->vehicle.footprint, car_.pose, 0.0));
   }
 
   Controller one_{
@@ -131,9 +131,8 @@ class BesideItsPlan : public testing::Test {
   coordination::Report report_;
 };
 
-const std::vector<Point> kUndisturbed_m{{0.0, 0.005},  {0.0, 0.025},  {0.0, -0.034},
-                                        {0.025, 0.0},  {-0.025, 0.0}, {-0.034, 0.0},
-                                        {0.020, 0.020}};
+const std::vector<Point> kUndisturbed_m{{0.0, 0.005},  {0.0, 0.025},  {0.0, -0.034}, {0.025, 0.0},
+                                        {-0.025, 0.0}, {-0.034, 0.0}, {0.020, 0.020}};
 
 TEST_F(BesideItsPlan, WhereItStandsByNoMoreThanUndisturbedCarsItAnnouncesThatForAllTime) {
   for (const Point& off_m : kUndisturbed_m) {
