@@ -130,6 +130,7 @@ if [[ -n $dump_problems ]]; then
     fail "--dump-problems with policy $driven_by requires --policy none: a problem names a subgraph of the automaton's file"
 fi
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
+((ids[-1] <= 30)) || fail "scenario $scenario: vehicle ${ids[-1]}, must be in 1 ... 30 in the lab; rollout and evaluate take more"
 [[ -n $stamps ]] || stamps=$(awk 'NR == 1 {print $3}' <<<"$starts")
 
 # With more than 4 cars the processes of each cost more than they compute.

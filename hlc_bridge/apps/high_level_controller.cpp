@@ -165,6 +165,11 @@ int main(int argc, char** argv) {
     flags.is_scenario_given = !flags.scenario.file.empty();
     flags.scenario.file = chosen_scenario(flags.scenario.file);
     scenario = hlc::scenario::read_scenario(flags.scenario);
+    if (scenario->vehicles.back().id.value > hlc::kMaxLabVehicleId) {
+      throw std::invalid_argument(fmt::format(
+          "{}: vehicle {}, must be in 1 ... {} in the lab", flags.scenario.file.string(),
+          scenario->vehicles.back().id.value, hlc::kMaxLabVehicleId));
+    }
     if (flags.problem_folder && scenario->policy != hlc::policy::kNoPolicy) {
       throw std::invalid_argument("--dump-problems with policy " + scenario->policy +
                                   " requires --policy none: a problem names a subgraph that "

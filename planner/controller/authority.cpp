@@ -51,12 +51,13 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
             .ahead_m = std::max({gives_back ? 0.0 : held_m, plans_m, 0.0}),
             .waiting_steps = stands && !gives_back ? claim_.waiting_steps + 1 : 0};
   has_place_ = true;
-  withheld_by_.clear();
+  holders_.clear();
 }
 
 void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
                        std::span<const VehicleId> silent,
-                       std::span<const right_of_way::Blocked> blocked, double step_m) {
+                       std::span<const right_of_way::Blocked> blocked, double step_m,
+                       SharedStep& shared) {
   std::vector<right_of_way::Holder> holders{{own, claim_}};
   for (const coordination::Traffic* other : others) {
     known_[other->vehicle] = other->claim.value();
@@ -67,13 +68,21 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
     claim.ahead_m = std::max(claim.ahead_m, kLookAhead_m) + step_m;
     holders.push_back({other, claim});
   }
-  const std::vector<double> ahead_m = right_of_way::grant(*map_, holders, blocked, kLookAhead_m);
+  std::ranges::sort(holders, {}, &right_of_way::Holder::vehicle);  // as every other vehicle does
+  const std::vector<double>& ahead_m = shared.granted(*map_, holders, blocked, kLookAhead_m);
   for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
-  claim_.ahead_m = ahead_m.front();
+  own_place_ = static_cast<std::size_t>(
+      std::ranges::find(holders, own, &right_of_way::Holder::vehicle) - holders.begin());
+  claim_.ahead_m = ahead_m[own_place_];
   const bool is_limited = claim_.ahead_m + map_->cell_m(claim_.route) <= kLookAhead_m;
-  if (is_limited) {
-    withheld_by_ = right_of_way::withheld_by(*map_, holders, blocked, 0);
-  }
+  if (!is_limited) return;
+  holders_ = std::move(holders);
+  blocked_.assign(blocked.begin(), blocked.end());
+}
+
+std::vector<VehicleId> Authority::withheld_by() const {
+  if (holders_.empty()) return {};
+  return right_of_way::withheld_by(*map_, holders_, blocked_, own_place_);
 }
 
 double Authority::end_s_m(double s_m) const {

@@ -39,28 +39,27 @@ void ControlLoop::advance_to(StepIndex step) {
   std::apply([&](auto&... kinds) { (drop_old(kinds), ...); }, received_);
 }
 
-void ControlLoop::receive(const coordination::Traffic& message) { keep(message); }
-void ControlLoop::receive(const coordination::Prediction& message) { keep(message); }
-void ControlLoop::receive(const coordination::Outcome& message) { keep(message); }
-
 template <class Message>
-void ControlLoop::keep(const Message& message) {
-  if (message.vehicle == controller_->options().vehicle || message.step < step_ ||
-      message.step.value > step_.value + kMaxStepsAhead) {
+void ControlLoop::receive(std::shared_ptr<const Message> message) {
+  if (message->vehicle == controller_->options().vehicle || message->step < step_ ||
+      message->step.value > step_.value + kMaxStepsAhead) {
     return;
   }
-  std::get<Received<Message>>(received_)[message.step].insert_or_assign(message.vehicle, message);
+  std::get<Received<Message>>(received_)[message->step].put(std::move(message));
 }
 
-/// Messages of this step, by sender.
-template <class Message>
-std::vector<Message> ControlLoop::received() const {
-  std::vector<Message> result;
-  const auto& messages = std::get<Received<Message>>(received_);
-  if (const auto of_step = messages.find(step_); of_step != messages.end()) {
-    for (const auto& [vehicle, message] : of_step->second) result.push_back(message);
-  }
-  return result;
+template void ControlLoop::receive(std::shared_ptr<const coordination::Traffic> message);
+template void ControlLoop::receive(std::shared_ptr<const coordination::Prediction> message);
+template void ControlLoop::receive(std::shared_ptr<const coordination::Outcome> message);
+
+void ControlLoop::receive(const coordination::Traffic& message) {
+  receive(std::make_shared<const coordination::Traffic>(message));
+}
+void ControlLoop::receive(const coordination::Prediction& message) {
+  receive(std::make_shared<const coordination::Prediction>(message));
+}
+void ControlLoop::receive(const coordination::Outcome& message) {
+  receive(std::make_shared<const coordination::Outcome>(message));
 }
 
 template <class Message>
@@ -100,12 +99,16 @@ Awaited ControlLoop::awaited() const {
   return {};
 }
 
-StepOutput ControlLoop::proceed() {
+StepOutput ControlLoop::proceed(SharedStep* shared) {
   switch (phase_) {
     case StepPhase::kIdle:
       break;
     case StepPhase::kTraffic:
-      controller_->couple(received<coordination::Traffic>());
+      if (shared != nullptr) {
+        controller_->couple(received<coordination::Traffic>(), *shared);
+      } else {
+        controller_->couple(received<coordination::Traffic>());
+      }
       phase_ = StepPhase::kPredecessors;
       return {};
     case StepPhase::kPredecessors:
@@ -121,7 +124,7 @@ StepOutput ControlLoop::proceed() {
 }
 
 StepOutput ControlLoop::plan() {
-  const std::vector<coordination::Prediction> predictions = received<coordination::Prediction>();
+  const auto& predictions = received<coordination::Prediction>();
   const std::uint64_t from_ns = stopwatch_();
   StepOutput output{.prediction = controller_->plan(predictions)};
   planning_ns_ = stopwatch_() - from_ns;

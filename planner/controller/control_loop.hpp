@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -68,6 +69,9 @@ class ControlLoop {
   /// dropped. Also to be called in a step that has neither `begin` nor `stand_by`.
   void advance_to(StepIndex step);
 
+  /// Kept as it is: several loops may receive one message.
+  template <class Message>
+  void receive(std::shared_ptr<const Message> message);
   void receive(const coordination::Traffic& message);
   void receive(const coordination::Prediction& message);
   void receive(const coordination::Outcome& message);
@@ -80,7 +84,8 @@ class ControlLoop {
   std::uint64_t warm_up() { return controller_->warm_up(); }
 
   /// The next phase, with the messages received so far. @pre in a step
-  [[nodiscard]] StepOutput proceed();
+  /// @param shared  of all controllers that are stepped together; absent: alone
+  [[nodiscard]] StepOutput proceed(SharedStep* shared = nullptr);
   /// Ends the step instead; outputs the report: the plan in force stays. @pre in a step
   [[nodiscard]] StepOutput fall_back(coordination::FallbackReason reason);
 
@@ -89,12 +94,12 @@ class ControlLoop {
 
  private:
   template <class Message>
-  using Received = std::map<StepIndex, std::map<VehicleId, Message>>;
+  using Received = std::map<StepIndex, coordination::ReceivedMessages<Message>>;
 
   template <class Message>
-  void keep(const Message& message);
-  template <class Message>
-  [[nodiscard]] std::vector<Message> received() const;
+  [[nodiscard]] const coordination::ReceivedMessages<Message>& received() {
+    return std::get<Received<Message>>(received_)[step_];
+  }
   template <class Message>
   [[nodiscard]] Awaited missing_of(MessageKind kind, const std::vector<VehicleId>& from) const;
   [[nodiscard]] bool needs_votes() const;

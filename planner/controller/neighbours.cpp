@@ -1,10 +1,9 @@
 #include "planner/controller/neighbours.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace hlc::controller {
-
-bool is_well_formed(const coordination::Outcome& /*outcome*/) { return true; }
 
 coordination::MissingVehicleRules rules_for_missing(
     const automaton::UniversalAutomaton& automaton) {
@@ -27,17 +26,17 @@ std::vector<VehicleId> Neighbours::silent(std::span<const VehicleId> active) {
   return silent;
 }
 
-void Neighbours::receive(std::span<const coordination::Traffic> traffic,
+void Neighbours::receive(const coordination::ReceivedMessages<coordination::Traffic>& traffic,
                          const Observation& observation) {
   missing_.clear();
   for (const VehicleId other : observation.active) {
     if (other == own_) continue;
-    const coordination::Traffic* message = find_message(traffic, other, now_);
+    std::shared_ptr<const coordination::Traffic> message = traffic.find(other, now_);
     if (message == nullptr) {
       missing_.push_back(other);
       continue;
     }
-    traffic_[other] = *message;  // over the former one: as many areas again
+    traffic_[other] = std::move(message);
     last_received_[other] = now_;
   }
   forget_if_steps_are_missing();
@@ -55,7 +54,7 @@ void Neighbours::forget_if_steps_are_missing() {
 
 bool Neighbours::is_received(VehicleId vehicle) const {
   const auto found = traffic_.find(vehicle);
-  return found != traffic_.end() && found->second.step == now_;
+  return found != traffic_.end() && found->second->step == now_;
 }
 
 bool Neighbours::is_received_by_any(VehicleId vehicle) const {
@@ -67,7 +66,7 @@ bool Neighbours::is_received_by_any(VehicleId vehicle) const {
 std::vector<const coordination::Traffic*> Neighbours::received() const {
   std::vector<const coordination::Traffic*> result;
   for (const auto& [vehicle, traffic] : traffic_) {
-    if (traffic.step == now_) result.push_back(&traffic);
+    if (traffic->step == now_) result.push_back(traffic.get());
   }
   return result;
 }

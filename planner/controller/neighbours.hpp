@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,26 +12,12 @@
 #include "planner/controller/observation.hpp"
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/missing.hpp"
+#include "planner/coordination/received_messages.hpp"
 
 namespace hlc::controller {
 
 [[nodiscard]] inline bool holds(std::span<const VehicleId> vehicles, VehicleId vehicle) {
   return std::ranges::find(vehicles, vehicle) != vehicles.end();
-}
-
-bool is_well_formed(const coordination::Outcome& outcome);
-
-/// The message of one vehicle in one step, if it has been received and is well-formed; otherwise
-/// nullptr.
-template <class Message>
-[[nodiscard]] const Message* find_message(std::span<const Message> messages, VehicleId vehicle,
-                                          StepIndex step) {
-  for (const Message& message : messages) {
-    if (message.vehicle == vehicle && message.step == step) {
-      return is_well_formed(message) ? &message : nullptr;
-    }
-  }
-  return nullptr;
 }
 
 /// Motion limits of a missing vehicle: over all maneuvers of the automaton, since another vehicle
@@ -56,13 +43,14 @@ class Neighbours {
   /// Takes this step's traffic; messages of other steps or senders and malformed ones are ignored.
   /// Updates liveness and standstill. In steps that were left out nobody was looked at: a vehicle
   /// may have driven and been received meanwhile.
-  void receive(std::span<const coordination::Traffic> traffic, const Observation& observation);
+  void receive(const coordination::ReceivedMessages<coordination::Traffic>& traffic,
+               const Observation& observation);
 
   /// Received in this step, sorted by vehicle.
   [[nodiscard]] std::vector<const coordination::Traffic*> received() const;
   /// @pre it was received in this step
   [[nodiscard]] const coordination::Traffic& traffic_of(VehicleId vehicle) const {
-    return traffic_.at(vehicle);
+    return *traffic_.at(vehicle);
   }
   /// Active vehicles that were not received, in the order of the observation. Valid after
   /// `receive`.
@@ -87,7 +75,7 @@ class Neighbours {
   StepIndex now_;
   std::optional<StepIndex> last_looked_;  ///< last step of `receive`
   /// The last of each; of this step only if its step matches
-  std::map<VehicleId, coordination::Traffic> traffic_;
+  std::map<VehicleId, std::shared_ptr<const coordination::Traffic>> traffic_;
   std::vector<VehicleId> missing_;
   std::map<VehicleId, StepIndex> last_received_;
   /// Last step in which the vehicle's controller may have agreed to something: received or present.

@@ -30,6 +30,7 @@ struct LaneClaim {
   double place_m{};               ///< arc length of the planned place at t(k), in [0, length)
   double ahead_m{};               ///< from there to the end, >= 0
   std::uint32_t waiting_steps{};  ///< control steps for which the vehicle has stood
+  friend bool operator==(const LaneClaim&, const LaneClaim&) = default;
 };
 
 /// First message of step k: planned pose, and areas of the plan in force.
@@ -73,5 +74,7 @@ struct Outcome {
   StepIndex step;         ///< k
   bool wants_fallback{};  ///< commit rule `agreed`: the sender had to fall back
 };
+
+[[nodiscard]] inline bool is_well_formed(const Outcome& /*outcome*/) { return true; }
 
 }  // namespace hlc::coordination
