@@ -45,7 +45,8 @@ void ControlLoop::receive(std::shared_ptr<const Message> message) {
       message->step.value > step_.value + kMaxStepsAhead) {
     return;
   }
-  std::get<Received<Message>>(received_)[message->step].put(std::move(message));
+  auto& of_step = std::get<Received<Message>>(received_)[message->step];
+  of_step.put(std::move(message));
 }
 
 template void ControlLoop::receive(std::shared_ptr<const coordination::Traffic> message);
