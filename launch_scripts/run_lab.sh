@@ -96,6 +96,8 @@ in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 [[ -z $seed ]] || seed=$((10#$seed))
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 [[ -z $stamps || $stamps == exact || $stamps == lab ]] || fail "--stamps = $stamps, must be one of exact, lab"
+[[ -z $gains_scale || $stamps != lab ]] || fail "--stamps = lab with --gains_scale, must be exact: the lab's follower has no gains"
+[[ -z $gains_scale ]] || stamps=exact
 case "$preset" in
   release | debug | asan | tsan) ;;
   *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
@@ -128,6 +130,7 @@ if [[ -n $dump_problems ]]; then
     fail "--dump-problems with policy $driven_by requires --policy none: a problem names a subgraph of the automaton's file"
 fi
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
+((ids[-1] <= 30)) || fail "scenario $scenario: vehicle ${ids[-1]}, must be in 1 ... 30 in the lab; rollout and evaluate take more"
 [[ -n $stamps ]] || stamps=$(awk 'NR == 1 {print $3}' <<<"$starts")
 
 # With more than 4 cars the processes of each cost more than they compute.

@@ -111,6 +111,8 @@ done
 for one in ${noise_seed//,/ }; do whole_number noise_seed "$one"; done
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 [[ -z $stamps || $stamps == exact || $stamps == lab ]] || fail "--stamps = $stamps, must be one of exact, lab"
+[[ -z $gains_scale || $stamps != lab ]] || fail "--stamps = lab with --gains_scale, must be exact: the lab's follower has no gains"
+[[ -z $gains_scale ]] || stamps=exact
 [[ -n $scenario ]] || fail "--scenario is missing"
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
@@ -152,6 +154,8 @@ choices=(--scenario "$scenario" --profile "$profile")
 appends=() # a restarted car keeps its last pose, and its record continues
 if [[ $only == vehicle && -s $out/vehicle_${ids[0]}.csv ]]; then
   appends=(--append_record)
+fi
+if [[ $only == vehicle && -s $out/vehicle_${ids[0]}.csv && " $*" != *" --pose"* ]]; then
   last=$(for one in "${ids[@]}"; do
     grep -E '^[0-9]+(,[^,]+){7}$' "$out/vehicle_$one.csv" | tail -n 1 | cut -d, -f2-4
   done)

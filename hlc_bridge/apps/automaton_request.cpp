@@ -238,7 +238,7 @@ class Asker {
     if (is_open && found) {
       static_cast<void>(
           signal_.wait_until(Clock::now() + std::chrono::seconds{1}, [this] { return stop_; }));
-      for (int id = 1; id <= static_cast<int>(hlc::kMaxVehicleId); ++id) {
+      for (int id = 1; id <= static_cast<int>(hlc::kMaxLabVehicleId); ++id) {
         if (is_matched(id)) asked_.insert(id);
       }
     }
@@ -270,7 +270,7 @@ class Asker {
     const hlc::Nanoseconds valid_from = in > 0 ? now + in : flags_.valid_from_ns;
     // Controllers that appear later are asked, too: the topic keeps the last request of every
     // vehicle.
-    for (int id = 1; id <= static_cast<int>(hlc::kMaxVehicleId); ++id) {
+    for (int id = 1; id <= static_cast<int>(hlc::kMaxLabVehicleId); ++id) {
       if (!flags_.vehicles.empty() && !asked_.contains(id)) continue;
       writer_.write({.vehicle = {static_cast<std::uint8_t>(id)},
                      .id = id_,

@@ -17,7 +17,7 @@
 /// value`.
 namespace hlc::apps {
 
-[[nodiscard]] inline CLI::Validator vehicle_id_range() { return whole(1, kMaxVehicleId); }
+[[nodiscard]] inline CLI::Validator vehicle_id_range() { return whole(1, kMaxLabVehicleId); }
 
 /// The lab's default.
 inline constexpr const char* kDiscoveryServerId = "44.53.00.5f.45.50.52.4f.53.49.4d.41";

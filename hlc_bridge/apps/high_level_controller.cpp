@@ -64,7 +64,8 @@ void declare(CLI::App& app, Flags& flags) {
           "default: environment variable HLC_SCENARIO, else the only line of the file "
           "default_scenario beside this program, else lab_three_cars");
   app.add_option("--node_id", flags.node_id,
-                 "name in the log; default: high_level_controller_<id>");
+                 "name in the log, with several vehicles _<id> is appended; default: "
+                 "high_level_controller_<id>");
   app.add_option("--dds_initial_peer", flags.dds_initial_peer,
                  "accepted and ignored: the lab's scripts pass it, but no program reads it");
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
@@ -94,6 +95,9 @@ hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::Vehicle
   hlc::process::HlcProcessOptions options;
   options.version = hlc::apps::program_version();
   options.node_id = flags.node_id.empty() ? hlc::controller_name(id.value) : flags.node_id;
+  if (!flags.node_id.empty() && flags.vehicle_ids.size() > 1) {
+    options.node_id += fmt::format("_{}", id.value);
+  }
   if (!flags.dds_initial_peer.empty()) {
     spdlog::warn("{}: --dds_initial_peer = {} is ignored, as by the lab's own programs",
                  options.node_id, flags.dds_initial_peer);
@@ -161,6 +165,11 @@ int main(int argc, char** argv) {
     flags.is_scenario_given = !flags.scenario.file.empty();
     flags.scenario.file = chosen_scenario(flags.scenario.file);
     scenario = hlc::scenario::read_scenario(flags.scenario);
+    if (scenario->vehicles.back().id.value > hlc::kMaxLabVehicleId) {
+      throw std::invalid_argument(fmt::format(
+          "{}: vehicle {}, must be in 1 ... {} in the lab", flags.scenario.file.string(),
+          scenario->vehicles.back().id.value, hlc::kMaxLabVehicleId));
+    }
     if (flags.problem_folder && scenario->policy != hlc::policy::kNoPolicy) {
       throw std::invalid_argument("--dump-problems with policy " + scenario->policy +
                                   " requires --policy none: a problem names a subgraph that "

@@ -113,7 +113,7 @@ int main(int argc, char** argv) {
                hlc::kLabControlName};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
+  if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) {
     return *code;
   }
   return hlc::apps::run_program(

@@ -37,7 +37,7 @@ template <class... Numbers>
 }
 
 [[nodiscard]] constexpr bool is_valid(VehicleId vehicle) {
-  return 1 <= vehicle.value && vehicle.value <= kMaxVehicleId;
+  return 1 <= vehicle.value && vehicle.value <= kMaxLabVehicleId;
 }
 
 }  // namespace hlc::dds

@@ -21,6 +21,17 @@ bool is_number(const std::string& text) {
          std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
 }
 
+/// The segment or port to which a lock file (..._el, ..._sl) or a semaphore (sem...._mutex)
+/// belongs: in use if that is. Other names as they are.
+std::string guarded_by(std::string name) {
+  constexpr std::string_view kSemaphore = "sem.";
+  for (const std::string_view suffix : {"_el", "_sl", "_mutex"}) {
+    if (name.ends_with(suffix)) name.resize(name.size() - suffix.size());
+  }
+  if (name.starts_with(kSemaphore)) name.erase(0, kSemaphore.size());
+  return name;
+}
+
 std::string name_of(const fs::path& process) {
   std::string name;
   std::getline(std::ifstream(process / "comm"), name);
@@ -59,11 +70,8 @@ std::vector<SharedMemoryFile> shared_memory_files(const fs::path& folder, const 
     const std::uintmax_t bytes = entry.file_size(ignored);
     files.push_back({name, ignored ? 0 : bytes, {}});
   }
-  // The lock file of a segment or port (…_el) is in use if that segment or port is.
   for (SharedMemoryFile& file : files) {
-    const std::string locked =
-        file.name.ends_with("_el") ? file.name.substr(0, file.name.size() - 3) : file.name;
-    for (const std::string& mapping : {file.name, locked}) {
+    for (const std::string& mapping : {file.name, guarded_by(file.name)}) {
       if (const auto found = mapped.find(mapping); found != mapped.end()) {
         file.users.insert(found->second.begin(), found->second.end());
       }

@@ -35,8 +35,8 @@ std::string HlcCore::validate(const VehicleStateList& list) const {
 }
 
 std::optional<controller::Observation> HlcCore::observe(const VehicleStateList& list) {
-  const std::optional<vehicle::LabLimits>& lab = controller_->options().lab;
-  controller::Observation observation = observation_of(list, lab ? lab->pose_lead_s : 0.0);
+  controller::Observation observation =
+      observation_of(list, vehicle::pose_lead_s(controller_->options().lab));
   if (last_step_ && observation.step <= *last_step_) return std::nullopt;
   last_step_ = observation.step;
   return observation;
@@ -116,7 +116,8 @@ AnswerToList HlcCore::answer_with(const coordination::Plan* plan,
 
 /// The vehicle is not too far from every point to follow the command.
 bool HlcCore::may_repeat(const TrajectoryCommand& command, const VehicleStateList& list) const {
-  const controller::Observation observation = observation_of(list);
+  const controller::Observation observation =
+      observation_of(list, vehicle::pose_lead_s(controller_->options().lab));
   const coordination::MeasuredVehicle* vehicle = own(observation);
   return vehicle == nullptr ||
          std::ranges::any_of(command.points, [&](const TrajectoryPoint& point) {

@@ -40,12 +40,12 @@ controller::Observation observation_of(const VehicleStateList& list, double pose
   for (const VehicleState& state : list.states) {
     if (!is_usable(state, list.t_now)) continue;
     const double age_s =
-        1e-9 * static_cast<double>(static_cast<std::int64_t>(step_start - state.create_stamp)) -
-        pose_lead_s;
+        1e-9 * static_cast<double>(static_cast<std::int64_t>(step_start - state.create_stamp));
     observation.states.push_back({.vehicle = {state.vehicle_id},
                                   .pose = state.pose,
                                   .speed_mps = state.speed_mps,
-                                  .age_s = age_s});
+                                  .age_s = age_s,
+                                  .pose_lead_s = pose_lead_s});
   }
   std::ranges::sort(observation.states, {}, &coordination::MeasuredVehicle::vehicle);
   return observation;

@@ -23,15 +23,10 @@ namespace hlc::high_level_controller {
 /// (settled_states.hpp), already valid, and not older than kMaxStateAge_s.
 [[nodiscard]] bool is_usable(const VehicleState& state, Nanoseconds t_now);
 
-/// The list as an observation of the controller: usable states only, with the age of their poses at
-/// t(k),
-///
-///     age = t(k) - (stamp + pose_lead_s)
-///
-/// (LabLimits): whatever compares a measured pose with a plan does so at stamp + lead. Vehicle ids
-/// out of range are left out.
+/// The list as an observation of the controller: usable states only, with their age at t(k) and the
+/// lead of their poses (LabLimits). Vehicle ids out of range are left out.
 [[nodiscard]] controller::Observation observation_of(const VehicleStateList& list,
-                                                     double pose_lead_s = 0.0);
+                                                     double pose_lead_s);
 
 /// The vehicle's battery voltage from its usable state in the list; none if there is none (a
 /// vehicle without a measurement publishes 0).

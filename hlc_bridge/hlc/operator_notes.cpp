@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "hlc_bridge/hlc/placement_line.hpp"
 
 namespace hlc::high_level_controller {
@@ -28,7 +30,7 @@ void OperatorNotes::note_step(const controller::Controller& controller,
     actions.error(stuck_line(controller, report.reason));
   }
   is_off_route_logged_ = is_off_route;
-  note_elsewhere(controller, actions);
+  note_disturbance(controller, report, actions);
   is_budget_logged_ |= is_over_budget;
   const bool stays =
       controller.is_cut_off() && report.reason == coordination::FallbackReason::kMissing;
@@ -70,10 +72,31 @@ void OperatorNotes::note_fault(StepIndex step, const AnswerToList& answer, HlcAc
   last_fault_ = answer.fault;
 }
 
-void OperatorNotes::note_elsewhere(const controller::Controller& controller, HlcActions& actions) {
-  const bool is_elsewhere = controller.is_vehicle_elsewhere();
-  if (is_elsewhere && !is_elsewhere_logged_) actions.error(elsewhere_line(controller));
-  is_elsewhere_logged_ = is_elsewhere;
+void OperatorNotes::note_disturbance(const controller::Controller& controller,
+                                     const coordination::Report& report, HlcActions& actions) {
+  const auto disturbance = [&] {
+    if (!controller.is_vehicle_seen()) return Disturbance::kUnseen;
+    if (controller.is_vehicle_elsewhere()) return Disturbance::kElsewhere;
+    return report.reason == coordination::FallbackReason::kDeviation ? Disturbance::kOffPlan
+                                                                     : Disturbance::kNone;
+  }();
+  if (disturbance == std::exchange(logged_disturbance_, disturbance)) return;
+  switch (disturbance) {
+    case Disturbance::kNone:
+      return actions.info(fmt::format("vehicle {} plans on", report.vehicle.value));
+    case Disturbance::kUnseen:
+      return actions.warn(
+          fmt::format("vehicle {} is not seen: the state lists show no state of it that is valid "
+                      "and new; it drives the last command that it has received to its end",
+                      report.vehicle.value));
+    case Disturbance::kOffPlan:
+      return actions.warn(
+          fmt::format("vehicle {} is off its plan by {:.0f} mm: it drives that to its end, then is "
+                      "planned from where it stands",
+                      report.vehicle.value, 1e3 * report.deviation_m));
+    case Disturbance::kElsewhere:
+      return actions.error(elsewhere_line(controller));
+  }
 }
 
 }  // namespace hlc::high_level_controller

@@ -25,8 +25,8 @@ class OperatorNotes {
 
   /// Why the vehicle keeps its former plan, where that may last. An exhausted budget is logged once
   /// in a run; the summary counts how often.
-  /// Also that the vehicle is elsewhere (rule 6 of plan_in_force.hpp), that it has become stuck
-  /// (coordination/waiting.hpp), or stays because no other controller has been received for
+  /// Also that the vehicle was disturbed (rules 4 to 6 of plan_in_force.hpp), that it has become
+  /// stuck (coordination/waiting.hpp), or stays because no other controller has been received for
   /// kSilentSteps (coordination/missing.hpp).
   void note_step(const controller::Controller& controller, const coordination::Report& report,
                  HlcActions& actions);
@@ -39,11 +39,14 @@ class OperatorNotes {
   void note_fault(StepIndex step, const AnswerToList& answer, HlcActions& actions);
 
  private:
-  void note_elsewhere(const controller::Controller& controller, HlcActions& actions);
+  enum class Disturbance : std::uint8_t { kNone, kUnseen, kOffPlan, kElsewhere };
+
+  void note_disturbance(const controller::Controller& controller,
+                        const coordination::Report& report, HlcActions& actions);
 
   std::optional<bool> logged_fit_;  ///< whether the vehicle fits, as last logged
   bool is_off_route_logged_{};
-  bool is_elsewhere_logged_{};
+  Disturbance logged_disturbance_{};
   bool is_budget_logged_{};
   std::uint64_t cut_off_steps_{};  ///< consecutive, in which the vehicle was kept from driving off
   coordination::StuckNotice stuck_;

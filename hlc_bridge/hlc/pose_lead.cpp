@@ -19,8 +19,8 @@ double median(const std::deque<double>& values) {
 }
 
 /// e of the header; none if the vehicle is not seen, or was not to drive.
-std::optional<double> ahead_s(const controller::Controller& controller,
-                              const controller::Observation& observation) {
+std::optional<double> time_ahead_s(const controller::Controller& controller,
+                                   const controller::Observation& observation) {
   const coordination::MeasuredVehicle* own = observation.measured(controller.options().vehicle);
   if (own == nullptr || !controller.has_plan()) return std::nullopt;
   const automaton::UniversalAutomaton& automaton = controller.subgraph().automaton();
@@ -38,19 +38,26 @@ std::optional<double> ahead_s(const controller::Controller& controller,
 
 std::optional<std::string> PoseLeadCheck::note(const controller::Controller& controller,
                                                const controller::Observation& observation) {
-  const std::optional<double> ahead = is_logged_ ? std::nullopt : ahead_s(controller, observation);
+  const std::optional<double> ahead =
+      is_logged_ ? std::nullopt : time_ahead_s(controller, observation);
   if (!ahead) return std::nullopt;
-  ahead_s_.push_back(*ahead);
-  if (ahead_s_.size() > kMostSteps) ahead_s_.pop_front();
-  if (ahead_s_.size() < kLeastSteps) return std::nullopt;
-  const double lacking_s = median(ahead_s_);
-  if (std::abs(lacking_s) <= kTolerance_s) return std::nullopt;
+  times_ahead_s_.push_back(*ahead);
+  if (times_ahead_s_.size() > kMostSteps) times_ahead_s_.pop_front();
+  if (times_ahead_s_.size() < kLeastSteps) return std::nullopt;
+  const double error_s = median(times_ahead_s_);
+  if (std::abs(error_s) <= kTolerance_s) return std::nullopt;
   is_logged_ = true;
-  const double lead_s = controller.options().lab ? controller.options().lab->pose_lead_s : 0.0;
-  return fmt::format(
-      "poses lie about {:.0f} ms ahead of their stamps (median of {} steps); pose_lead_s of the "
-      "lab's description must be within {:.0f} ms of that, is {:.0f} ms",
-      1e3 * (lead_s + lacking_s), ahead_s_.size(), 1e3 * kTolerance_s, 1e3 * lead_s);
+  const double set_s = vehicle::pose_lead_s(controller.options().lab);
+  const double lead_s = set_s + error_s;
+  const std::string line = fmt::format(
+      "poses lie about {:.0f} ms ahead of their stamps (median of {} steps), pose_lead_s of the "
+      "lab's description is {:.3f}: ",
+      1e3 * lead_s, times_ahead_s_.size(), set_s);
+  if (lead_s < 0.0 || lead_s > vehicle::kMostPoseLead_s) {
+    return line + "the vehicle does not keep to its plans in time, or its clock is wrong";
+  }
+  if (!controller.options().lab) return line + "the scenario names no lab (key lab)";
+  return line + fmt::format("set it to {:.3f}, if the other vehicles show the same", lead_s);
 }
 
 }  // namespace hlc::high_level_controller

@@ -14,9 +14,11 @@ namespace hlc::high_level_controller {
 ///
 ///     e = (p - r) . v / |v|^2
 ///
-/// which vanishes if the lead is right, and otherwise is what it lacks. Starts and stops, and plans
-/// that jump to the vehicle, spoil single values: the median of the last kMostSteps counts, once
-/// there are kLeastSteps in which the vehicle was to drive with kLeastSpeed_mps or more.
+/// which vanishes if the lead is right, and otherwise is what it lacks; a vehicle that lags behind
+/// its plans, or drives ahead of them, cannot be distinguished from a wrong lead. Starts and stops,
+/// and plans that jump to the vehicle, spoil single values: the median of the last kMostSteps
+/// counts, once there are kLeastSteps in which the vehicle was to drive with kLeastSpeed_mps or
+/// more.
 class PoseLeadCheck {
  public:
   static constexpr std::size_t kLeastSteps = 25;
@@ -31,7 +33,7 @@ class PoseLeadCheck {
                                                 const controller::Observation& observation);
 
  private:
-  std::deque<double> ahead_s_;
+  std::deque<double> times_ahead_s_;
   bool is_logged_{};
 };
 

@@ -60,7 +60,8 @@ void CommandForwarder::count_missed_answers(Nanoseconds list, MiddlewareActions&
   for (const std::uint8_t id : unanswered(list)) {
     if (missed_answers_++ > 0) continue;
     actions.emplace_back(machine::warning(
-        fmt::format("{} has missed the list of {} ns", controller_name(id), list)));
+        fmt::format("no answer of {} to a state list in time; its log may state why (logged once)",
+                    controller_name(id))));
   }
 }
 

@@ -208,7 +208,7 @@ inline void declare_scenario_flags(CLI::App& app, scenario::ScenarioChoices& cho
   app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
   app.add_option("--cars", choices.cars,
                  "number of cars (scenarios on a circle, or that draw their cars)")
-      ->check(whole(1, 30));
+      ->check(whole(1, kMaxVehicleId));
   app.add_option("--seed", choices.seed, "of drawn cars and random routes")
       ->check(whole(0, scenario::kMaxSeed));
   app.add_option("--routes", choices.routes,

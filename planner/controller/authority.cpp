@@ -51,13 +51,14 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
             .ahead_m = std::max({gives_back ? 0.0 : held_m, plans_m, 0.0}),
             .waiting_steps = stands && !gives_back ? claim_.waiting_steps + 1 : 0};
   has_place_ = true;
-  withheld_by_.clear();
-  granted_m_.clear();
+  holders_.clear();
+  is_limited_ = false;
 }
 
 void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
                        std::span<const VehicleId> silent,
-                       std::span<const right_of_way::Blocked> blocked, double step_m) {
+                       std::span<const right_of_way::Blocked> blocked, double step_m,
+                       SharedStep& shared) {
   std::vector<right_of_way::Holder> holders{{own, claim_}};
   for (const coordination::Traffic* other : others) {
     known_[other->vehicle] = other->claim.value();
@@ -68,23 +69,29 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
     claim.ahead_m = std::max(claim.ahead_m, kLookAhead_m) + step_m;
     holders.push_back({other, claim});
   }
-  const std::vector<double> ahead_m = right_of_way::grant(*map_, holders, blocked, kLookAhead_m);
-  for (std::size_t i = 0; i < holders.size(); ++i) {
-    holders[i].claim.ahead_m = ahead_m[i];
-    granted_m_[holders[i].vehicle] = ahead_m[i];
-  }
-  claim_.ahead_m = ahead_m.front();
-  const bool is_limited = claim_.ahead_m + map_->cell_m(claim_.route) <= kLookAhead_m;
-  if (is_limited) {
-    withheld_by_ = right_of_way::withheld_by(*map_, holders, blocked, 0);
-  }
+  std::ranges::sort(holders, {}, &right_of_way::Holder::vehicle);  // as every other vehicle does
+  const std::vector<double>& ahead_m = shared.granted(*map_, holders, blocked, kLookAhead_m);
+  for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
+  own_place_ = static_cast<std::size_t>(
+      std::ranges::find(holders, own, &right_of_way::Holder::vehicle) - holders.begin());
+  claim_.ahead_m = ahead_m[own_place_];
+  is_limited_ = claim_.ahead_m + map_->cell_m(claim_.route) <= kLookAhead_m;
+  holders_ = std::move(holders);
+  blocked_.assign(blocked.begin(), blocked.end());
+}
+
+std::vector<VehicleId> Authority::withheld_by() const {
+  if (!is_limited_) return {};
+  return right_of_way::withheld_by(*map_, holders_, blocked_, own_place_);
 }
 
 void Authority::resume(const coordination::LaneClaim& claim, VehicleId vehicle,
                        const Authority& receiver) {
   claim_ = claim;
-  const auto granted = receiver.granted_m_.find(vehicle);
-  if (granted != receiver.granted_m_.end()) claim_.ahead_m = granted->second;
+  is_limited_ = false;
+  const auto granted =
+      std::ranges::find(receiver.holders_, vehicle, &right_of_way::Holder::vehicle);
+  if (granted != receiver.holders_.end()) claim_.ahead_m = granted->claim.ahead_m;
 }
 
 double Authority::end_s_m(double s_m) const {

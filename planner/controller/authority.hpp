@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "planner/controller/route_tracker.hpp"
+#include "planner/controller/shared_step.hpp"
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/plan.hpp"
 #include "planner/right_of_way/conflict_map.hpp"
@@ -53,7 +54,7 @@ class Authority {
   /// @param step_m     the longest way of a vehicle in a step
   void extend(VehicleId own, std::span<const coordination::Traffic* const> others,
               std::span<const VehicleId> silent, std::span<const right_of_way::Blocked> blocked,
-              double step_m);
+              double step_m, SharedStep& shared);
 
   /// The authority of another vehicle with this claim in its traffic, after the grants of
   /// `receiver`: grants are the same in all controllers that received the same.
@@ -61,7 +62,7 @@ class Authority {
 
   /// Vehicles that hold or block what would be granted next, if the end limits planning. @pre
   /// extend
-  [[nodiscard]] const std::vector<VehicleId>& withheld_by() const { return withheld_by_; }
+  [[nodiscard]] std::vector<VehicleId> withheld_by() const;
 
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.
   [[nodiscard]] double end_s_m(double s_m) const;
@@ -71,9 +72,12 @@ class Authority {
  private:
   std::shared_ptr<const right_of_way::ConflictMap> map_;
   coordination::LaneClaim claim_;
-  std::vector<VehicleId> withheld_by_;
+  /// After `extend`: what all hold and block, and which holder the vehicle is.
+  std::vector<right_of_way::Holder> holders_;
+  std::vector<right_of_way::Blocked> blocked_;
+  std::size_t own_place_{};
+  bool is_limited_{};  ///< the end limits planning
   std::map<VehicleId, coordination::LaneClaim> known_;  ///< the last of each other vehicle
-  std::map<VehicleId, double> granted_m_;  ///< ahead_m of all after `extend`; empty: not extended
   std::uint32_t unused_steps_{};           ///< for which it has stood with road in front of it
   bool has_place_{};
 };

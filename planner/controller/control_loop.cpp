@@ -45,28 +45,28 @@ void ControlLoop::advance_to(StepIndex step) {
   std::apply([&](auto&... kinds) { (drop_old(kinds), ...); }, received_);
 }
 
-void ControlLoop::receive(const coordination::Traffic& message) { keep(message); }
-void ControlLoop::receive(const coordination::Prediction& message) { keep(message); }
-void ControlLoop::receive(const coordination::Outcome& message) { keep(message); }
-
 template <class Message>
-void ControlLoop::keep(const Message& message) {
-  if (message.vehicle == controller_->options().vehicle || message.step < step_ ||
-      message.step.value > step_.value + kMaxStepsAhead) {
+void ControlLoop::receive(std::shared_ptr<const Message> message) {
+  if (message->vehicle == controller_->options().vehicle || message->step < step_ ||
+      message->step.value > step_.value + kMaxStepsAhead) {
     return;
   }
-  std::get<Received<Message>>(received_)[message.step].insert_or_assign(message.vehicle, message);
+  auto& of_step = std::get<Received<Message>>(received_)[message->step];
+  of_step.put(std::move(message));
 }
 
-/// Messages of this step, by sender.
-template <class Message>
-std::vector<Message> ControlLoop::received() const {
-  std::vector<Message> result;
-  const auto& messages = std::get<Received<Message>>(received_);
-  if (const auto of_step = messages.find(step_); of_step != messages.end()) {
-    for (const auto& [vehicle, message] : of_step->second) result.push_back(message);
-  }
-  return result;
+template void ControlLoop::receive(std::shared_ptr<const coordination::Traffic> message);
+template void ControlLoop::receive(std::shared_ptr<const coordination::Prediction> message);
+template void ControlLoop::receive(std::shared_ptr<const coordination::Outcome> message);
+
+void ControlLoop::receive(const coordination::Traffic& message) {
+  receive(std::make_shared<const coordination::Traffic>(message));
+}
+void ControlLoop::receive(const coordination::Prediction& message) {
+  receive(std::make_shared<const coordination::Prediction>(message));
+}
+void ControlLoop::receive(const coordination::Outcome& message) {
+  receive(std::make_shared<const coordination::Outcome>(message));
 }
 
 template <class Message>
@@ -86,10 +86,12 @@ Awaited ControlLoop::missing_of(MessageKind kind, const std::vector<VehicleId>& 
 /// Who has sent an outcome with digests sends no prediction, or has sent it.
 Awaited ControlLoop::missing_plans_of(MessageKind kind, const std::vector<VehicleId>& from) const {
   Awaited awaited = missing_of<coordination::Prediction>(kind, from);
-  const std::vector<coordination::Outcome> outcomes = received<coordination::Outcome>();
+  const auto& outcomes = std::get<Received<coordination::Outcome>>(received_);
+  const auto of_step = outcomes.find(step_);
+  if (of_step == outcomes.end()) return awaited;
   std::erase_if(awaited.from, [&](VehicleId vehicle) {
-    const auto outcome = std::ranges::find(outcomes, vehicle, &coordination::Outcome::vehicle);
-    return outcome != outcomes.end() && outcome->digests;
+    const auto outcome = of_step->second.find(vehicle, step_);
+    return outcome != nullptr && outcome->digests;
   });
   return awaited;
 }
@@ -118,13 +120,13 @@ Awaited ControlLoop::awaited() const {
   return {};
 }
 
-StepOutput ControlLoop::proceed() {
+StepOutput ControlLoop::proceed(SharedStep* shared) {
   switch (phase_) {
     case StepPhase::kIdle:
       break;
     case StepPhase::kTraffic:
       phase_ = StepPhase::kPredecessors;
-      couple();
+      couple(shared);
       return {};
     case StepPhase::kPredecessors:
       phase_ = StepPhase::kCommit;
@@ -137,8 +139,12 @@ StepOutput ControlLoop::proceed() {
   return {};
 }
 
-void ControlLoop::couple() {
-  controller_->couple(received<coordination::Traffic>());
+void ControlLoop::couple(SharedStep* shared) {
+  if (shared != nullptr) {
+    controller_->couple(received<coordination::Traffic>(), *shared);
+  } else {
+    controller_->couple(received<coordination::Traffic>());
+  }
   if (!two_rounds_) return;
   const std::uint64_t from_ns = stopwatch_();
   static_cast<void>(two_rounds_->begin(*controller_));
@@ -147,7 +153,7 @@ void ControlLoop::couple() {
 
 StepOutput ControlLoop::plan() {
   StepOutput output;
-  const std::vector<coordination::Prediction> predictions = received<coordination::Prediction>();
+  const auto& predictions = received<coordination::Prediction>();
   const std::uint64_t from_ns = stopwatch_();
   if (is_in_two_rounds()) {
     output.outcome = two_rounds_->plan(*controller_);
@@ -161,12 +167,11 @@ StepOutput ControlLoop::plan() {
 }
 
 StepOutput ControlLoop::commit() {
-  const std::vector<coordination::Outcome> outcomes = received<coordination::Outcome>();
-  std::vector<coordination::Prediction> predictions = received<coordination::Prediction>();
-  if (is_in_two_rounds()) {
-    predictions = two_rounds_->known_plans(*controller_, predictions, outcomes);
-  }
-  return {.report = controller_->commit(predictions, outcomes)};
+  const auto& outcomes = received<coordination::Outcome>();
+  const auto& predictions = received<coordination::Prediction>();
+  if (!is_in_two_rounds()) return {.report = controller_->commit(predictions, outcomes)};
+  return {.report = controller_->commit(
+              two_rounds_->known_plans(*controller_, predictions, outcomes), outcomes)};
 }
 
 StepOutput ControlLoop::fall_back(coordination::FallbackReason reason) {

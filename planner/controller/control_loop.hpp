@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -75,6 +76,9 @@ class ControlLoop {
   /// dropped. Also to be called in a step that has neither `begin` nor `stand_by`.
   void advance_to(StepIndex step);
 
+  /// Kept as it is: several loops may receive one message.
+  template <class Message>
+  void receive(std::shared_ptr<const Message> message);
   void receive(const coordination::Traffic& message);
   void receive(const coordination::Prediction& message);
   void receive(const coordination::Outcome& message);
@@ -87,7 +91,8 @@ class ControlLoop {
   std::uint64_t warm_up() { return controller_->warm_up(); }
 
   /// The next phase, with the messages received so far. @pre in a step
-  [[nodiscard]] StepOutput proceed();
+  /// @param shared  of all controllers that are stepped together; absent: alone
+  [[nodiscard]] StepOutput proceed(SharedStep* shared = nullptr);
   /// Ends the step instead; outputs the report: the plan in force stays. @pre in a step
   [[nodiscard]] StepOutput fall_back(coordination::FallbackReason reason);
 
@@ -101,19 +106,19 @@ class ControlLoop {
 
  private:
   template <class Message>
-  using Received = std::map<StepIndex, std::map<VehicleId, Message>>;
+  using Received = std::map<StepIndex, coordination::ReceivedMessages<Message>>;
 
   template <class Message>
-  void keep(const Message& message);
-  template <class Message>
-  [[nodiscard]] std::vector<Message> received() const;
+  [[nodiscard]] const coordination::ReceivedMessages<Message>& received() {
+    return std::get<Received<Message>>(received_)[step_];
+  }
   template <class Message>
   [[nodiscard]] Awaited missing_of(MessageKind kind, const std::vector<VehicleId>& from) const;
   [[nodiscard]] Awaited missing_plans_of(MessageKind kind,
                                          const std::vector<VehicleId>& from) const;
   [[nodiscard]] bool needs_votes() const;
   [[nodiscard]] bool is_in_two_rounds() const { return two_rounds_ && two_rounds_->is_begun(); }
-  void couple();
+  void couple(SharedStep* shared);
   [[nodiscard]] StepOutput commit();
   [[nodiscard]] StepOutput plan();
 

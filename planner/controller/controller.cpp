@@ -9,7 +9,6 @@
 #include "planner/controller/planning_basis.hpp"
 #include "planner/controller/problem_alone.hpp"
 #include "planner/controller/self_loop.hpp"
-#include "planner/coordination/coupling.hpp"
 #include "planner/coordination/priority.hpp"
 #include "planner/geometry/footprint.hpp"
 
@@ -191,13 +190,22 @@ std::uint64_t Controller::warm_up() {
   return search_.warm_up(problem);
 }
 
-void Controller::couple(std::span<const coordination::Traffic> received) {
+void Controller::couple(const coordination::ReceivedMessages<coordination::Traffic>& received) {
+  SharedStep alone;
+  couple(received, alone);
+}
+
+void Controller::couple(const coordination::ReceivedMessages<coordination::Traffic>& received,
+                        SharedStep& shared) {
   neighbours_.receive(received, step_.observation);
   std::vector<const coordination::Traffic*> traffic = neighbours_.received();
   traffic.push_back(&step_.traffic);
   step_.report.missing = neighbours_.missing();
-  extend_authority();
-  take_coupling(coordination::CouplingGraph(std::move(traffic)));
+  extend_authority(shared);
+  const auto& [graph, levels] =
+      shared.coupling(std::move(traffic), options_.strategies.plans_before);
+  step_.report.level = levels.at(options_.vehicle);
+  take_coupling(graph);
 }
 
 void Controller::take_coupling(const coordination::CouplingGraph& graph) {
@@ -206,8 +214,6 @@ void Controller::take_coupling(const coordination::CouplingGraph& graph) {
       coordination::predecessors(graph, options_.vehicle, options_.strategies.plans_before);
   step_.component = graph.component(options_.vehicle);
   step_.report.coupled = graph.neighbours(options_.vehicle);
-  step_.report.level =
-      coordination::computation_level(graph, options_.vehicle, options_.strategies.plans_before);
   // A coupled vehicle that does not receive our messages may soon drive as if we stood for good
   // (missing.hpp).
   const bool is_silent_to_any = std::ranges::any_of(coupled(), [this](VehicleId other) {
@@ -265,7 +271,8 @@ bool Controller::may_plan() const {
   return !minimal_risk_stop_ && step_.obstacle == coordination::FallbackReason::kNone;
 }
 
-coordination::Prediction Controller::plan(std::span<const coordination::Prediction> received) {
+coordination::Prediction Controller::plan(
+    const coordination::ReceivedMessages<coordination::Prediction>& received) {
   respect_predecessors(received);
   check_start();
   if (may_plan()) {
@@ -309,19 +316,19 @@ coordination::Outcome Controller::vote() const {
 }
 
 coordination::CommitVerdict Controller::decide(
-    std::span<const coordination::Prediction> predictions,
-    std::span<const coordination::Outcome> outcomes) const {
+    const coordination::ReceivedMessages<coordination::Prediction>& predictions,
+    const coordination::ReceivedMessages<coordination::Outcome>& outcomes) const {
   const StepIndex now = step_.observation.step;
   std::vector<coordination::CoupledAreas> coupled_areas;
   for (const VehicleId other : coupled()) {
     if (step_.respected.contains(other)) continue;  // an obstacle of the search
-    const coordination::Prediction* message = find_message(predictions, other, now);
+    const coordination::Prediction* message = predictions.find(other, now).get();
     coupled_areas.push_back({.reachable_area_m = &neighbours_.traffic_of(other).reachable_area_m,
                              .predicted = message == nullptr ? nullptr : &message->areas});
   }
   std::vector<const coordination::Outcome*> votes;
   for (const VehicleId other : step_.component) {
-    if (other != options_.vehicle) votes.push_back(find_message(outcomes, other, now));
+    if (other != options_.vehicle) votes.push_back(outcomes.find(other, now).get());
   }
   return options_.strategies.coordination.commit.decide({.planned = &step_.prediction.areas,
                                                          .coupled = coupled_areas,
@@ -330,8 +337,9 @@ coordination::CommitVerdict Controller::decide(
                                                          .steps = options_.horizon_steps});
 }
 
-coordination::Report Controller::commit(std::span<const coordination::Prediction> predictions,
-                                        std::span<const coordination::Outcome> outcomes) {
+coordination::Report Controller::commit(
+    const coordination::ReceivedMessages<coordination::Prediction>& predictions,
+    const coordination::ReceivedMessages<coordination::Outcome>& outcomes) {
   if (!options_.strategies.coordination.commit.needs_votes) note_awaited(predictions);
   if (!step_.candidate.plan) return finish(false, step_.obstacle);
   const coordination::CommitVerdict verdict = decide(predictions, outcomes);
@@ -340,13 +348,13 @@ coordination::Report Controller::commit(std::span<const coordination::Prediction
 }
 
 /// For announced_plans and note_waiting; the predecessors' are known already.
-void Controller::note_awaited(std::span<const coordination::Prediction> predictions) {
+void Controller::note_awaited(
+    const coordination::ReceivedMessages<coordination::Prediction>& predictions) {
   for (const VehicleId other : coupled()) {
     if (step_.respected.contains(other)) continue;
-    const coordination::Prediction* message =
-        find_message(predictions, other, step_.observation.step);
+    const auto message = predictions.find(other, step_.observation.step);
     if (message == nullptr) step_.not_received.push_back(other);
-    if (message != nullptr && message->is_new) step_.awaited[other] = message->areas;
+    if (message != nullptr && message->is_new) step_.awaited[other] = message;
   }
 }
 

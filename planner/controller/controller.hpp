@@ -18,9 +18,11 @@
 #include "planner/controller/plan_in_force.hpp"
 #include "planner/controller/prepared_subgraph.hpp"
 #include "planner/controller/route_tracker.hpp"
+#include "planner/controller/shared_step.hpp"
 #include "planner/controller/waits_for.hpp"
 #include "planner/coordination/coupling.hpp"
 #include "planner/coordination/messages.hpp"
+#include "planner/coordination/received_messages.hpp"
 #include "planner/coordination/report.hpp"
 #include "planner/road/corridor.hpp"
 #include "planner/road/placement.hpp"
@@ -113,11 +115,16 @@ class Controller {
   /// Returns how many there were.
   std::uint64_t warm_up();
   /// Second phase. `received` may hold messages of other steps and senders: they are ignored.
-  void couple(std::span<const coordination::Traffic> received);
+  /// @param shared  of all controllers that are stepped together
+  void couple(const coordination::ReceivedMessages<coordination::Traffic>& received,
+              SharedStep& shared);
+  /// The same alone.
+  void couple(const coordination::ReceivedMessages<coordination::Traffic>& received);
   /// Third phase. Needs the predictions of `predecessors`. Poses the problem, searches, predicts
   /// the drift, checks the result, and searches again if the drift leads into something: planning
   /// time is the duration of all this.
-  [[nodiscard]] coordination::Prediction plan(std::span<const coordination::Prediction> received);
+  [[nodiscard]] coordination::Prediction plan(
+      const coordination::ReceivedMessages<coordination::Prediction>& received);
   /// The result of `plan`.
   [[nodiscard]] const coordination::Prediction& prediction() const { return step_.prediction; }
   /// After `plan`: the prediction that it was given of this vehicle does not count as received, so
@@ -128,8 +135,9 @@ class Controller {
   [[nodiscard]] coordination::Outcome vote() const;
   /// Last phase. Needs the predictions of `coupled`, or the outcomes of `component` for a commit
   /// rule that needs votes.
-  [[nodiscard]] coordination::Report commit(std::span<const coordination::Prediction> predictions,
-                                            std::span<const coordination::Outcome> outcomes);
+  [[nodiscard]] coordination::Report commit(
+      const coordination::ReceivedMessages<coordination::Prediction>& predictions,
+      const coordination::ReceivedMessages<coordination::Outcome>& outcomes);
   /// Instead of the remaining phases: a deadline has passed, the plan in force stays.
   [[nodiscard]] coordination::Report fall_back(coordination::FallbackReason reason);
 
@@ -217,9 +225,9 @@ class Controller {
     std::vector<VehicleId> component;
     std::vector<search::HorizonProblem> entry_problems;
     /// Predictions that the search took into account
-    std::map<VehicleId, coordination::Prediction> respected;
-    std::map<VehicleId, coordination::OccupiedAreas>
-        awaited;  ///< new plans of other coupled vehicles
+    std::map<VehicleId, std::shared_ptr<const coordination::Prediction>> respected;
+    /// New plans of other coupled vehicles
+    std::map<VehicleId, std::shared_ptr<const coordination::Prediction>> awaited;
     PlanCandidate candidate;
     double cost_m2{};  ///< of the candidate's first search, with the whole reference
     coordination::Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
@@ -240,8 +248,9 @@ class Controller {
   [[nodiscard]] std::optional<coordination::PlanningInput> planning_input() const;
   void take_coupling(const coordination::CouplingGraph& graph);
   [[nodiscard]] bool may_plan() const;
-  void extend_authority();
-  void respect_predecessors(std::span<const coordination::Prediction> received);
+  void extend_authority(SharedStep& shared);
+  void respect_predecessors(
+      const coordination::ReceivedMessages<coordination::Prediction>& received);
   void check_start();
   [[nodiscard]] double reach_m() const { return search_.reach_m(step_.traffic.next_trim); }
   static constexpr double kNoEnd_m = std::numeric_limits<double>::infinity();
@@ -257,7 +266,7 @@ class Controller {
       std::span<const CoupledVehicle> coupled_vehicles, CoupledObstacleRule rule,
       std::span<const MissingVehicle> missing) const;
   [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m(CoupledObstacleRule rule) const;
-  void note_opposed(std::span<const coordination::Outcome> outcomes);
+  void note_opposed(const coordination::ReceivedMessages<coordination::Outcome>& outcomes);
   [[nodiscard]] coordination::Plan plan_of(
       const std::vector<const automaton::Maneuver*>& maneuvers) const;
   [[nodiscard]] std::optional<MotionAlone> motion_alone();
@@ -270,10 +279,10 @@ class Controller {
   [[nodiscard]] bool makes_room_for(const CoupledVehicle& other) const;
   [[nodiscard]] bool make_room(const search::HorizonProblem& own);
   [[nodiscard]] std::optional<coordination::OccupiedAreas> desired_areas();
-  void note_awaited(std::span<const coordination::Prediction> predictions);
+  void note_awaited(const coordination::ReceivedMessages<coordination::Prediction>& predictions);
   [[nodiscard]] coordination::CommitVerdict decide(
-      std::span<const coordination::Prediction> predictions,
-      std::span<const coordination::Outcome> outcomes) const;
+      const coordination::ReceivedMessages<coordination::Prediction>& predictions,
+      const coordination::ReceivedMessages<coordination::Outcome>& outcomes) const;
   [[nodiscard]] coordination::Report finish(bool accepted, coordination::FallbackReason reason);
 
   ControllerOptions options_;

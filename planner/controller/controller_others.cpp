@@ -1,6 +1,7 @@
 // The other vehicles as a controller sees them in a step: obstacles of its plan, and those that its
 // vehicle waits for.
 #include <algorithm>
+#include <utility>
 
 #include "planner/controller/controller.hpp"
 #include "planner/controller/making_room.hpp"
@@ -26,15 +27,15 @@ void note_withheld(const std::vector<VehicleId>& by, std::vector<OtherVehicle>& 
 CoupledVehicle Controller::coupled_vehicle(VehicleId other) const {
   const auto respected = step_.respected.find(other);
   return {.traffic = &neighbours_.traffic_of(other),
-          .prediction = respected == step_.respected.end() ? nullptr : &respected->second,
+          .prediction = respected == step_.respected.end() ? nullptr : respected->second.get(),
           .is_predecessor = options_.strategies.plans_before(other, options_.vehicle)};
 }
 
-void Controller::respect_predecessors(std::span<const coordination::Prediction> received) {
+void Controller::respect_predecessors(
+    const coordination::ReceivedMessages<coordination::Prediction>& received) {
   for (const VehicleId other : step_.predecessors) {
-    if (const coordination::Prediction* message =
-            find_message(received, other, step_.observation.step)) {
-      step_.respected[other] = *message;
+    if (auto message = received.find(other, step_.observation.step)) {
+      step_.respected[other] = std::move(message);
     }
   }
 }
@@ -44,7 +45,7 @@ MissingVehicle Controller::missing_vehicle(VehicleId other) const {
           .stands_for_good = neighbours_.stands_for_good(other, options_.horizon_steps)};
 }
 
-void Controller::extend_authority() {
+void Controller::extend_authority(SharedStep& shared) {
   if (!authority_) return;
   const automaton::UniversalAutomaton& automaton = subgraph().automaton();
   std::vector<right_of_way::Blocked> blocked;
@@ -75,7 +76,7 @@ void Controller::extend_authority() {
     blocked.push_back({traffic->vehicle, traffic->running.final_area_m});
   }
   authority_->extend(options_.vehicle, holders, silent, blocked,
-                     neighbours_.rules().max_speed_mps * automaton.step_s);
+                     neighbours_.rules().max_speed_mps * automaton.step_s, shared);
 }
 
 std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m(
@@ -105,10 +106,10 @@ std::vector<Controller::AnnouncedPlan> Controller::announced_plans() const {
     const VehicleId other = traffic->vehicle;
     const auto respected = step_.respected.find(other);
     const auto awaited = step_.awaited.find(other);
-    if (respected != step_.respected.end() && respected->second.is_new) {
-      plans.push_back({other, respected->second.areas});
+    if (respected != step_.respected.end() && respected->second->is_new) {
+      plans.push_back({other, respected->second->areas});
     } else if (awaited != step_.awaited.end()) {
-      plans.push_back({other, awaited->second});
+      plans.push_back({other, awaited->second->areas});
     } else {
       plans.push_back({other, traffic->running});
     }
@@ -116,10 +117,11 @@ std::vector<Controller::AnnouncedPlan> Controller::announced_plans() const {
   return plans;
 }
 
-void Controller::note_opposed(std::span<const coordination::Outcome> outcomes) {
+void Controller::note_opposed(
+    const coordination::ReceivedMessages<coordination::Outcome>& outcomes) {
   for (const VehicleId other : step_.component) {
     if (other == options_.vehicle) continue;
-    const coordination::Outcome* vote = find_message(outcomes, other, step_.observation.step);
+    const auto vote = outcomes.find(other, step_.observation.step);
     if (vote == nullptr || vote->wants_fallback) step_.opposed.push_back(other);
   }
 }
@@ -158,7 +160,7 @@ OtherVehicle Controller::as_obstacle(VehicleId coupled) const {
       result.areas_m[j].push_back(other.prediction->desired->during({step_.next().value + j}));
     }
     if (awaited != step_.awaited.end()) {
-      result.areas_m[j].push_back(awaited->second.during({step_.next().value + j}));
+      result.areas_m[j].push_back(awaited->second->areas.during({step_.next().value + j}));
     } else if (is_unknown) {
       result.areas_m[j].push_back(other.traffic->reachable_area_m);
     }

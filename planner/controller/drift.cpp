@@ -61,10 +61,12 @@ Driven driven(const Driven& at, const Point& from, const Point& to,
 }  // namespace
 
 SeenAt seen_at(const coordination::MeasuredVehicle& measured, StepIndex now, double step_s) {
-  const auto steps_back = static_cast<std::int64_t>(std::ceil(measured.age_s / step_s));
-  const auto step = static_cast<std::int64_t>(now.value) - steps_back;
-  return {.step = {static_cast<std::uint64_t>(std::max<std::int64_t>(step, 0))},
-          .time_s = static_cast<double>(steps_back) * step_s - measured.age_s,
+  constexpr double kBeforeNext_s = 1e-9;
+  const double ago_s = std::clamp(measured.age_s - measured.pose_lead_s, kBeforeNext_s - step_s,
+                                  static_cast<double>(now.value) * step_s);
+  const double steps_back = std::ceil(ago_s / step_s);
+  return {.step = {now.value - static_cast<std::uint64_t>(steps_back)},
+          .time_s = steps_back * step_s - ago_s,
           .pose = measured.pose};
 }
 

@@ -12,8 +12,8 @@ struct SeenAt {
   Pose pose;  ///< heading_rad is the yaw
 };
 
-/// Where and when the state list of step `now` shows a vehicle. Its age may be negative: with a
-/// lead (LabLimits::pose_lead_s), or in a list that comes late in its step.
+/// Where and when the state list of step `now` shows a vehicle: at the pose's stamp plus its lead.
+/// A time outside [0, t(now + 1)) is taken for the nearest one inside.
 [[nodiscard]] SeenAt seen_at(const coordination::MeasuredVehicle& measured, StepIndex now,
                              double step_s);
 

@@ -37,11 +37,11 @@ std::vector<VehicleId> JointPlanning::vehicles_that_matter(const Controller& own
   return found;
 }
 
-std::vector<coordination::Prediction> JointPlanning::plan(Controller& own) {
-  std::vector<coordination::Prediction> predictions;
+coordination::ReceivedMessages<coordination::Prediction> JointPlanning::plan(Controller& own) {
+  coordination::ReceivedMessages<coordination::Prediction> predictions;
   for (const VehicleId vehicle : vehicles_that_matter(own)) {
     Controller& one = vehicle == own.options().vehicle ? own : *replicas_.at(vehicle);
-    predictions.push_back(one.plan(predictions));
+    predictions.put(std::make_shared<const coordination::Prediction>(one.plan(predictions)));
   }
   return predictions;
 }

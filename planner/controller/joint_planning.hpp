@@ -31,7 +31,7 @@ class JointPlanning {
 
   /// Plans for all vehicles that matter, the own one included, in the order of their priorities.
   /// @pre `prepare` returned none, in the same step
-  [[nodiscard]] std::vector<coordination::Prediction> plan(Controller& own);
+  [[nodiscard]] coordination::ReceivedMessages<coordination::Prediction> plan(Controller& own);
 
  private:
   [[nodiscard]] bool can_plan(VehicleId vehicle, const Controller& own);

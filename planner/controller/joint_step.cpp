@@ -1,5 +1,6 @@
 #include "planner/controller/joint_step.hpp"
 
+#include <memory>
 #include <utility>
 
 namespace hlc::controller {
@@ -12,12 +13,13 @@ class Exchange {
       : loops_(loops), step_(step), rules_(&rules) {}
 
   template <class Message>
-  void deliver(MessageKind kind, const Message& message) const {
+  void deliver(MessageKind kind, Message message) const {
+    const auto shared = std::make_shared<const Message>(std::move(message));
     for (ControlLoop* receiver : loops_) {
       const VehicleId to = receiver->controller().options().vehicle;
-      if (to == message.vehicle) continue;
-      if (rules_->is_lost && rules_->is_lost({kind, step_, message.vehicle, to})) continue;
-      receiver->receive(message);
+      if (to == shared->vehicle) continue;
+      if (rules_->is_lost && rules_->is_lost({kind, step_, shared->vehicle, to})) continue;
+      receiver->receive(shared);
     }
   }
 
@@ -59,8 +61,11 @@ std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops
     if (rules.on_traffic) rules.on_traffic(one->controller(), traffic.back());
   }
   exchange.deliver(rules.external);
-  for (const coordination::Traffic& one : traffic) exchange.deliver(MessageKind::kTraffic, one);
-  for (ControlLoop* one : loops) static_cast<void>(one->proceed());
+  for (coordination::Traffic& one : traffic) {
+    exchange.deliver(MessageKind::kTraffic, std::move(one));
+  }
+  SharedStep shared;
+  for (ControlLoop* one : loops) static_cast<void>(one->proceed(&shared));
 
   std::vector<coordination::Report> reports(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -68,8 +73,10 @@ std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops
       reports[i] = *loops[i]->fall_back(coordination::FallbackReason::kLate).report;
       continue;
     }
-    const StepOutput output = plan(*loops[i], rules);
-    if (output.prediction) exchange.deliver(MessageKind::kPrediction, *output.prediction);
+    StepOutput output = plan(*loops[i], rules);
+    if (output.prediction) {
+      exchange.deliver(MessageKind::kPrediction, *std::move(output.prediction));
+    }
     if (output.outcome) exchange.deliver(MessageKind::kOutcome, *output.outcome);
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {

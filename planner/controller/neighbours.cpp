@@ -1,10 +1,9 @@
 #include "planner/controller/neighbours.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace hlc::controller {
-
-bool is_well_formed(const coordination::Outcome& /*outcome*/) { return true; }
 
 coordination::MissingVehicleRules rules_for_missing(
     const automaton::UniversalAutomaton& automaton) {
@@ -27,17 +26,17 @@ std::vector<VehicleId> Neighbours::silent(std::span<const VehicleId> active) {
   return silent;
 }
 
-void Neighbours::receive(std::span<const coordination::Traffic> traffic,
+void Neighbours::receive(const coordination::ReceivedMessages<coordination::Traffic>& traffic,
                          const Observation& observation) {
   missing_.clear();
   for (const VehicleId other : observation.active) {
     if (other == own_) continue;
-    const coordination::Traffic* message = find_message(traffic, other, now_);
+    std::shared_ptr<const coordination::Traffic> message = traffic.find(other, now_);
     if (message == nullptr) {
       missing_.push_back(other);
       continue;
     }
-    traffic_[other] = std::make_shared<const coordination::Traffic>(*message);
+    traffic_[other] = std::move(message);
     last_received_[other] = now_;
   }
   forget_if_steps_are_missing();

@@ -12,26 +12,12 @@
 #include "planner/controller/observation.hpp"
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/missing.hpp"
+#include "planner/coordination/received_messages.hpp"
 
 namespace hlc::controller {
 
 [[nodiscard]] inline bool holds(std::span<const VehicleId> vehicles, VehicleId vehicle) {
   return std::ranges::find(vehicles, vehicle) != vehicles.end();
-}
-
-bool is_well_formed(const coordination::Outcome& outcome);
-
-/// The message of one vehicle in one step, if it has been received and is well-formed; otherwise
-/// nullptr.
-template <class Message>
-[[nodiscard]] const Message* find_message(std::span<const Message> messages, VehicleId vehicle,
-                                          StepIndex step) {
-  for (const Message& message : messages) {
-    if (message.vehicle == vehicle && message.step == step) {
-      return is_well_formed(message) ? &message : nullptr;
-    }
-  }
-  return nullptr;
 }
 
 /// Motion limits of a missing vehicle: over all maneuvers of the automaton, since another vehicle
@@ -57,7 +43,8 @@ class Neighbours {
   /// Takes this step's traffic; messages of other steps or senders and malformed ones are ignored.
   /// Updates liveness and standstill. In steps that were left out nobody was looked at: a vehicle
   /// may have driven and been received meanwhile.
-  void receive(std::span<const coordination::Traffic> traffic, const Observation& observation);
+  void receive(const coordination::ReceivedMessages<coordination::Traffic>& traffic,
+               const Observation& observation);
 
   /// The same knowledge in the controller of `other`, if it has received the same in this step and
   /// those before. @param own  traffic of this controller. @pre receive; `other` was received
@@ -91,8 +78,7 @@ class Neighbours {
   coordination::MissingVehicleRules rules_;
   StepIndex now_;
   std::optional<StepIndex> last_looked_;  ///< last step of `receive`
-  /// The last of each; of this step only if its step matches. Shared with copies, of which there is
-  /// one for each other vehicle in a step with two rounds.
+  /// The last of each; of this step only if its step matches
   std::map<VehicleId, std::shared_ptr<const coordination::Traffic>> traffic_;
   std::vector<VehicleId> missing_;
   std::map<VehicleId, StepIndex> last_received_;

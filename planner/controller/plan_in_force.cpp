@@ -23,6 +23,17 @@ std::vector<bool> trims_at_limit(const automaton::UniversalAutomaton& automaton)
   return is_at_limit;
 }
 
+/// Adds `more` to `areas`, step by step. @pre more.first <= areas.first
+void cover(const coordination::OccupiedAreas& more, coordination::OccupiedAreas& areas) {
+  const auto add = [](const ConvexPolygon& one, ConvexPolygon& area) {
+    area = convex_hull(std::vector{area, one});
+  };
+  for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
+    add(more.during({areas.first.value + i}), areas.areas_m[i]);
+  }
+  add(more.final_area_m, areas.final_area_m);
+}
+
 }  // namespace
 
 PlanInForce::PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
@@ -70,6 +81,7 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   const vehicle::VehicleParameters& vehicle = automaton_->vehicle;
   moved_.reset();
   outside_area_m_ = {};
+  is_beside_ = false;
   deviation_m_ = 0.0;
   if (own == nullptr) {  // the vehicle's position is unknown: it may stand anywhere on its plan
     moved_ = plan_;
@@ -89,29 +101,37 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   const double off_m = (own->pose.position_m() - planned.pose.position_m()).norm();
   const bool is_outside =
       deviation_m_ > vehicle.safety_margin_m && !is_inside_announced(own->pose, seen_.step);
-  is_lost_ = is_lost_ && is_outside;
+  const bool is_disturbed = is_outside && deviation_m_ > rules_.tracking_error_max_m;
+  is_beside_ = is_outside != is_disturbed;
+  is_lost_ = is_lost_ && is_disturbed;
   const DeviationCheck result{.deviation_m = deviation_m_,
-                              .is_disturbed = is_outside,
+                              .is_disturbed = is_disturbed,
                               .is_lost = is_lost_,
-                              .is_elsewhere = is_outside && off_m > vehicle::kStopBound_m};
+                              .is_elsewhere = is_disturbed && off_m > vehicle::kStopBound_m};
   const double reanchor_m =
       std::max(rules_.reanchor_share * vehicle.safety_margin_m, rules_.tracking_error_max_m);
-  if (!is_outside && off_m <= reanchor_m) return result;
+  if (!is_disturbed && off_m <= reanchor_m) return result;
   const bool stands =
       plan_.end() <= seen_.step &&
       std::abs(own->speed_mps) <= coordination::MissingVehicleRules{}.standing_speed_mps;
-  if (is_outside && stands) {
-    ReplacedPlans replaced = std::move(replaced_);
-    *this = PlanInForce(automaton_, *standstill_, rules_, own->pose, now);
-    replaced_ = std::move(replaced);
-    deviation_m_ = result.deviation_m;
+  if (is_disturbed && stands) {
+    anchor_at(own->pose, now);
     return {.deviation_m = deviation_m_, .is_disturbed = false, .is_reanchored = true};
   }
   moved_ = plan_.moved(planned.pose, automaton::pose_of_measured(own->pose, planned.steering_rad,
                                                                  vehicle, automaton_->identified));
-  if (!is_outside && !stays_inside_announced(*moved_, now)) moved_.reset();
-  if (is_outside) note_outside(own->pose, own->speed_mps, now);
+  if (!is_disturbed && !stays_inside_announced(*moved_, now)) moved_.reset();
+  if (is_disturbed) note_outside(own->pose, own->speed_mps, now);
   return result;
+}
+
+/// The vehicle stands where its plan did not lead.
+void PlanInForce::anchor_at(const Pose& pose, StepIndex now) {
+  ReplacedPlans replaced = std::move(replaced_);
+  const double deviation_m = deviation_m_;
+  *this = PlanInForce(automaton_, *standstill_, rules_, pose, now);
+  replaced_ = std::move(replaced);
+  deviation_m_ = deviation_m;
 }
 
 /// At the last sight.
@@ -188,6 +208,7 @@ coordination::OccupiedAreas PlanInForce::announced_areas(StepIndex from) const {
   for (StepIndex step = from; step < end; ++step.value) {
     areas.areas_m.push_back(announced_.during(step));
   }
+  if (is_beside_) cover(areas_of(plan_, from), areas);
   if (outside_area_m_.empty() && former.empty()) return areas;
   ConvexPolygon way = outside_area_m_;
   for (StepIndex step = seen_.step; step < from; ++step.value) {

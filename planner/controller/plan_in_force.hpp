@@ -43,8 +43,7 @@ struct DeviationCheck {
 ///
 /// 1. A swept area contains a vehicle that deviates by m at most, in position and heading together
 ///    (planner/automaton/deviation.hpp). Where it has steering to spare it does not deviate more:
-///    measured 7.7 mm at most, m = 10 mm. The lab's vehicles do, at starts and stops
-///    (`tracking_error_max_m`), and are inside their announced areas nevertheless, m = 20 mm.
+///    measured 7.7 mm at most, m = 10 mm. The lab's vehicles do, at starts and stops: rule 4.
 /// 2. The areas of a plan that may lead it farther (trims near the steering limit, or a vehicle
 ///    that deviates already) are those of its predicted drive to the end of the plan (drift.hpp).
 ///    If they meet anything, a plan without those trims is searched instead. So the old plan also
@@ -59,7 +58,10 @@ struct DeviationCheck {
 ///    and drives its plan to the end; from this step on its traffic announces all areas in which it
 ///    can be, so that no other plan enters them. Once it stands, its plan is anchored where it
 ///    stands. Agreements that the others made before they received this cannot be revoked;
-///    everything they do from then on keeps clear.
+///    everything they do from then on keeps clear. One that deviates by no more than undisturbed
+///    ones do (`tracking_error_max_m`) returns to its plan by itself: it plans on, and its traffic
+///    announces the areas of its predicted drive, too (rule 2). The others keep clear of them from
+///    then on.
 ///
 /// 5. A vehicle that is not seen is lost until it is seen on a plan, or re-anchored. No command is
 ///    sent to it (in real time; in logical time none is lost): it drives the last command that it
@@ -160,6 +162,7 @@ class PlanInForce {
   [[nodiscard]] bool is_inside_announced(const Pose& measured, StepIndex step,
                                          double reserve_m = 0.0) const;
   [[nodiscard]] double deviation_from(const coordination::Plan& plan) const;
+  void anchor_at(const Pose& pose, StepIndex now);
   void return_to_driven_plan(StepIndex now);
   void note_outside(const Pose& pose, double speed_mps, StepIndex now);
   [[nodiscard]] double tolerated_m() const;
@@ -178,6 +181,7 @@ class PlanInForce {
   SeenAt seen_;  ///< the last sight
   double seen_speed_mps_{};
   double deviation_m_{};
+  bool is_beside_{};                         ///< rule 4: outside its area, but not disturbed
   std::optional<coordination::Plan> moved_;  ///< the plan moved to the vehicle's real pose
   /// Where a vehicle that is disturbed was seen, and may have braked from there, with margin.
   ConvexPolygon outside_area_m_;

@@ -20,7 +20,7 @@ std::uint64_t digest_of_inputs(const Controller& own) {
 }  // namespace
 
 bool TwoRounds::begin(const Controller& own) {
-  computed_.clear();
+  computed_ = {};
   not_shared_.clear();
   is_begun_ = false;
   if (differs_from_) return false;
@@ -38,15 +38,15 @@ coordination::Outcome TwoRounds::plan(Controller& own) {
                                                .plan = coordination::digest_of(own.prediction())}};
 }
 
-std::vector<coordination::Prediction> TwoRounds::known_plans(
-    Controller& own, std::span<const coordination::Prediction> predictions,
-    std::span<const coordination::Outcome> outcomes) {
-  std::vector<coordination::Prediction> known;
+coordination::ReceivedMessages<coordination::Prediction> TwoRounds::known_plans(
+    Controller& own, const coordination::ReceivedMessages<coordination::Prediction>& predictions,
+    const coordination::ReceivedMessages<coordination::Outcome>& outcomes) {
+  coordination::ReceivedMessages<coordination::Prediction> known;
   for (const VehicleId other : own.coupled()) {
-    const auto computed = std::ranges::find(computed_, other, &coordination::Prediction::vehicle);
+    const auto computed = computed_.find(other, own.last_step());
     const std::uint64_t digest = coordination::digest_of(*computed);
-    const auto* const outcome = find_message(outcomes, other, own.last_step());
-    const auto* const prediction = find_message(predictions, other, own.last_step());
+    const auto outcome = outcomes.find(other, own.last_step());
+    const auto prediction = predictions.find(other, own.last_step());
     bool is_same = prediction != nullptr && coordination::digest_of(*prediction) == digest;
     if (outcome != nullptr && outcome->digests) {
       is_same = outcome->digests->plan == digest;
@@ -54,9 +54,9 @@ std::vector<coordination::Prediction> TwoRounds::known_plans(
     }
     if (!is_same) own.disregard(other);
     if (is_same) {
-      known.push_back(*computed);
+      known.put(computed);
     } else if (prediction != nullptr) {
-      known.push_back(*prediction);
+      known.put(prediction);
     }
   }
   return known;

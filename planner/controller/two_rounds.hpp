@@ -51,9 +51,9 @@ class TwoRounds {
   /// The new plans of coupled vehicles that are known now: computed and confirmed, or received.
   /// What `own` has respected without its being confirmed counts as not respected from now on. To
   /// be followed by `own.commit`. @pre plan
-  [[nodiscard]] std::vector<coordination::Prediction> known_plans(
-      Controller& own, std::span<const coordination::Prediction> predictions,
-      std::span<const coordination::Outcome> outcomes);
+  [[nodiscard]] coordination::ReceivedMessages<coordination::Prediction> known_plans(
+      Controller& own, const coordination::ReceivedMessages<coordination::Prediction>& predictions,
+      const coordination::ReceivedMessages<coordination::Outcome>& outcomes);
 
  private:
   void compare(VehicleId vehicle, bool is_same, const coordination::PlanDigests& received,
@@ -62,7 +62,7 @@ class TwoRounds {
   JointPlanning joint_;
   bool is_begun_{};
   std::vector<VehicleId> not_shared_;
-  std::vector<coordination::Prediction> computed_;
+  coordination::ReceivedMessages<coordination::Prediction> computed_;
   std::uint64_t inputs_{};  ///< digest
   std::map<VehicleId, std::size_t> differing_steps_;
   std::optional<VehicleId> differs_from_;

@@ -11,8 +11,10 @@ struct VehicleId {
   friend auto operator<=>(const VehicleId&, const VehicleId&) = default;
 };
 
-/// The lab numbers its vehicles 1 ... 30.
-inline constexpr std::uint8_t kMaxVehicleId = 30;
+/// Vehicles within one process are numbered 1 ... 255.
+inline constexpr std::uint8_t kMaxVehicleId = 255;
+/// The lab numbers its vehicles 1 ... 30: its programs and the topics of DDS know no others.
+inline constexpr std::uint8_t kMaxLabVehicleId = 30;
 
 /// Number k = t_now / period of the control step, from the time stamp and never from a count of
 /// receipts, so equal numbers mean the same instant in every controller. t(k) = k * period.

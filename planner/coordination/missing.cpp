@@ -1,5 +1,6 @@
 #include "planner/coordination/missing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,7 +9,8 @@ namespace hlc::coordination {
 ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
                              const MissingVehicleRules& rules) {
   constexpr int kCorners = 8;
-  const double radius = rules.max_speed_mps * (measured.age_s + horizon_s) + rules.circumradius_m;
+  const double radius =
+      rules.max_speed_mps * (std::max(measured.age_s, 0.0) + horizon_s) + rules.circumradius_m;
   const double corner_radius = radius / std::cos(std::numbers::pi / kCorners);
   ConvexPolygon octagon;
   for (int i = 0; i < kCorners; ++i) {

@@ -10,7 +10,8 @@ struct MeasuredVehicle {
   VehicleId vehicle;
   Pose pose;  ///< heading_rad is the vehicle's yaw, not the planner's heading
   double speed_mps{};
-  double age_s{};  ///< t(k) minus the time of the pose; negative: of a time after t(k)
+  double age_s{};        ///< t(k) minus the stamp; negative in a list that comes late in its step
+  double pose_lead_s{};  ///< the pose is that of the stamp plus this (LabLimits), >= 0
 };
 
 /// Older states are ignored.
@@ -26,7 +27,8 @@ struct MissingVehicleRules {
 };
 
 /// An octagon around the disc of everything that a vehicle measured at `measured` can occupy until
-/// `horizon_s` after t(k): radius = max_speed (age + horizon) + circumradius.
+/// `horizon_s` after t(k): radius = max_speed (max(age, 0) + horizon) + circumradius. A lead does
+/// not make it smaller: that of other software's vehicles is not known.
 [[nodiscard]] ConvexPolygon reachable_disc(const MeasuredVehicle& measured, double horizon_s,
                                            const MissingVehicleRules& rules);
 

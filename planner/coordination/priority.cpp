@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "planner/common/demand.hpp"
-
 namespace hlc::coordination {
 
 bool smaller_id_first(VehicleId a, VehicleId b) { return a < b; }
@@ -15,20 +13,20 @@ std::vector<VehicleId> predecessors(const CouplingGraph& graph, VehicleId vehicl
   return result;
 }
 
-std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle,
-                                PriorityRule plans_before) {
+std::map<VehicleId, std::uint32_t> computation_levels(const CouplingGraph& graph,
+                                                      PriorityRule plans_before) {
   // In planning order every predecessor's level is known before it is needed.
   std::vector<VehicleId> order = graph.vehicles();
   std::ranges::sort(order, plans_before);
-  std::vector<std::uint32_t> levels(order.size(), 0);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (graph.are_coupled(order[i], order[j])) levels[i] = std::max(levels[i], levels[j] + 1);
+  std::map<VehicleId, std::uint32_t> levels;
+  for (const VehicleId vehicle : order) {
+    std::uint32_t level = 0;
+    for (const VehicleId other : predecessors(graph, vehicle, plans_before)) {
+      level = std::max(level, levels.at(other) + 1);
     }
-    if (order[i] == vehicle) return levels[i];
+    levels[vehicle] = level;
   }
-  HLC_DEMAND(false && "a vehicle of the graph", vehicle);
-  return 0;
+  return levels;
 }
 
 }  // namespace hlc::coordination

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "planner/coordination/coupling.hpp"
@@ -19,9 +20,9 @@ using PriorityRule = bool (*)(VehicleId a, VehicleId b);
 [[nodiscard]] std::vector<VehicleId> predecessors(const CouplingGraph& graph, VehicleId vehicle,
                                                   PriorityRule plans_before);
 
-/// Computation level: 0 without predecessors, otherwise one more than the largest level among them.
-/// Vehicles of one level plan at the same time.
-[[nodiscard]] std::uint32_t computation_level(const CouplingGraph& graph, VehicleId vehicle,
-                                              PriorityRule plans_before);
+/// Computation level of each vehicle: 0 without predecessors, otherwise one more than the largest
+/// level among them. Vehicles of one level plan at the same time.
+[[nodiscard]] std::map<VehicleId, std::uint32_t> computation_levels(const CouplingGraph& graph,
+                                                                    PriorityRule plans_before);
 
 }  // namespace hlc::coordination

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kBetweenArrows_m = 1.0;
 constexpr double kArrow_m = 0.02;
+constexpr double kBonnetShare = 0.2;  ///< of a car's length, white: where its front is
 constexpr double kThinnest_px = 1.6;
 constexpr double kThicker_px = 1.8;  ///< a path drawn before another
 
@@ -65,6 +66,7 @@ std::string car_colour(const scenario::Scenario& scenario, std::size_t vehicle) 
 std::string scenario_plot(const scenario::Scenario& scenario,
                           const std::optional<road::LaneletMap>& map, bool with_poses) {
   PlotPanel panel{.x_label = "x [m]", .y_label = "y [m]", .equal_scale = true};
+  std::vector<PlotLegend> legend;
   if (map) add_lanes(*map, panel);
   const std::size_t count = scenario.vehicles.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -74,10 +76,10 @@ std::string scenario_plot(const scenario::Scenario& scenario,
     line.width_px = kThinnest_px;
     // The first paths are the widest and lie below; a few widths suffice.
     line.width_px += kThicker_px * static_cast<double>(std::min<std::size_t>(count - 1 - i, 3));
-    panel.legend.push_back({.text = fmt::format("vehicle {}: {}", vehicle.id.value, vehicle.name) +
-                                    (with_poses ? pose_text(scenario, vehicle) : ""),
-                            .colour = line.colour,
-                            .radius_px = 0.0});
+    legend.push_back({.text = fmt::format("vehicle {}: {}", vehicle.id.value, vehicle.name) +
+                              (with_poses ? pose_text(scenario, vehicle) : ""),
+                      .colour = line.colour,
+                      .radius_px = 0.0});
     add_direction(vehicle.path,
                   kBetweenArrows_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count),
                   panel);
@@ -86,18 +88,23 @@ std::string scenario_plot(const scenario::Scenario& scenario,
   const Footprint& footprint = scenario.subgraph->automaton().vehicle.footprint;
   for (std::size_t i = 0; i < count; ++i) {
     const scenario::ScenarioVehicle& vehicle = scenario.vehicles[i];
-    const ConvexPolygon area =
-        footprint_area(footprint, scenario::measured_start(scenario, vehicle));
-    panel.front_areas.push_back({.points = {area.vertices_m.begin(), area.vertices_m.end()},
-                                 .fill = car_colour(scenario, i),
-                                 .stroke = "#000000"});
+    const Pose start = scenario::measured_start(scenario, vehicle);
+    const auto add = [&panel](const ConvexPolygon& area, const std::string& fill) {
+      panel.front_areas.push_back({.points = {area.vertices_m.begin(), area.vertices_m.end()},
+                                   .fill = fill,
+                                   .stroke = "#000000"});
+    };
+    add(footprint_area(footprint, start), car_colour(scenario, i));
+    const Footprint bonnet{.length_m = kBonnetShare * footprint.length_m,
+                           .width_m = footprint.width_m};
+    const double ahead_m = 0.5 * (footprint.length_m - bonnet.length_m);
+    add(footprint_area(bonnet, compose(start, {ahead_m, 0.0, 0.0})), "#ffffff");
     panel.texts.push_back({.at = vehicle.start.position_m(),
                            .text = fmt::to_string(vehicle.id.value),
                            .colour = "#ffffff"});
   }
-  panel.legend_corner = Corner::kEmptiest;
   return svg_of("Scenario " + scenario.name + ": reference paths, vehicles at the start", {panel},
-                1, {.width_px = 900.0, .height_px = 800.0});
+                1, {.width_px = 900.0, .height_px = 800.0}, legend);
 }
 
 }  // namespace hlc::plot

@@ -22,8 +22,8 @@ void add_lanes(const road::LaneletMap& map, PlotPanel& panel);
 [[nodiscard]] std::string car_colour(const scenario::Scenario& scenario, std::size_t vehicle);
 
 /// The paper's Fig. 3, as SVG: lanes, the vehicles' reference paths with their direction,
-/// footprints (without margin) and ids at the start. Paths that share a lane are drawn with widths
-/// that differ.
+/// footprints (without margin, the front white) and ids at the start. Paths that share a lane are
+/// drawn with widths that differ.
 /// @param map         absent: open ground
 /// @param with_poses  the legend holds the vehicles' poses (yaw): a sheet to place them by
 [[nodiscard]] std::string scenario_plot(const scenario::Scenario& scenario,

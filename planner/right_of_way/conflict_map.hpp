@@ -16,7 +16,7 @@ namespace hlc::right_of_way {
 /// How routes are cut into cells, and when two cells exclude each other.
 struct ConflictRules {
   double cell_m{0.04};
-  /// Added to the footprint to each side: the safety margin of 10 mm and room for a vehicle that
+  /// Added to the footprint to each side: a safety margin of 10 mm and room for a vehicle that
   /// stands a little askew. Of eight runs of twenty cars on the lab's road (300 s) two came to a
   /// standstill with 12 mm; with 14 mm one car waited for 55 s, with 16 mm none longer than 20 s.
   double across_m{0.016};

@@ -38,15 +38,14 @@ class Grants {
   [[nodiscard]] std::vector<VehicleId> withheld_by(std::size_t who) const {
     const std::size_t route = holders_[who].claim.route;
     const std::vector<std::size_t> next = next_stretch(who);
+    std::vector<bool> is_needed(map_.num_cells());
+    for (const std::size_t cell : next) {
+      for (const std::uint32_t one : map_.overlaps(route, cell)) is_needed[one] = true;
+    }
     std::vector<VehicleId> vehicles;
     for (std::size_t other = 0; other < holders_.size(); ++other) {
-      const std::vector<std::uint32_t> held = held_by(other);
-      const auto holds = [&](std::size_t cell) {
-        return std::ranges::any_of(map_.overlaps(route, cell), [&](std::uint32_t one) {
-          return std::ranges::find(held, one) != held.end();
-        });
-      };
-      if (other != who && std::ranges::any_of(next, holds)) {
+      const auto holds = [&](std::uint32_t cell) { return is_needed[cell]; };
+      if (other != who && std::ranges::any_of(held_by(other), holds)) {
         vehicles.push_back(holders_[other].vehicle);
       }
     }

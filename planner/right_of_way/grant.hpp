@@ -13,12 +13,14 @@ namespace hlc::right_of_way {
 struct Holder {
   VehicleId vehicle;
   coordination::LaneClaim claim;
+  friend bool operator==(const Holder&, const Holder&) = default;
 };
 
 /// An area of a vehicle that holds no cells: off the road, or without a controller.
 struct Blocked {
   VehicleId vehicle;
   ConvexPolygon area_m;
+  friend bool operator==(const Blocked&, const Blocked&) = default;
 };
 
 /// How far every vehicle's authority reaches after all that can be granted has been: the ends of

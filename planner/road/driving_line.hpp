@@ -26,7 +26,8 @@ class DrivingLine {
 };
 
 /// Lines that leave room between two cars side by side. Lanes of the lab are 0.150 m wide, a car
-/// 0.107 m: 0.043 m between two footprints, of which 0.020 m are the safety margins, and in a
+/// 0.107 m: 0.043 m between two footprints, of which 0.020 m are the safety margins (0.040 m of
+/// the lab's vehicles), and in a
 /// curvature kappa the corners of a car of length l reach l^2 / 8 * kappa farther out. Towards a
 /// kerb, where no margin is needed, there is room to spare. So where a lane has a neighbour lane on
 /// one side only, the line is moved away from it, by

@@ -22,7 +22,8 @@ vehicle::LabLimits read_lab(const std::filesystem::path& file, double step_s) {
               "a divisor of the automaton's step of " + shortest_text(step_s) + " s");
   }
   lab.pose_lead_s = node.optional("pose_lead_s", 0.0, between(0.0, vehicle::kMostPoseLead_s));
-  lab.tracking_error_max_m = node.optional("tracking_error_max_m", 0.0, between(0.0, 0.1));
+  lab.tracking_error_max_m =
+      node.optional("tracking_error_max_m", 0.0, between(0.0, vehicle::kMostTrackingError_m));
   const Node area = node.map("area");
   lab.x_min_m = area.required<double>("x_min_m");
   lab.x_max_m = area.required<double>("x_max_m", above(lab.x_min_m));

@@ -64,6 +64,8 @@ struct Scenario {
   std::shared_ptr<const right_of_way::ConflictMap> conflicts;  ///< ControllerOptions
   /// What the cars of a scenario with `draw` are drawn from; otherwise empty.
   std::vector<ScenarioVehicle> candidates;
+  /// The same at the begins of their routes' other lanelets, if they are too few; otherwise empty.
+  std::vector<ScenarioVehicle> further_candidates;
   std::shared_ptr<const road::LaneletMap> random_routes_on;  ///< none: no random routes
   std::uint64_t seed{};  ///< of the drawn cars and the random routes
 };

@@ -95,6 +95,16 @@ void add_named_vehicles(const ScenarioValues& values, const road::LaneletMap& ma
   }
 }
 
+void add_further_candidates(const DrawValues& draw, const Routes& routes, Scenario& scenario) {
+  for (const std::string& name : draw.routes) {
+    const road::Route& route = routes.at(name);
+    for (std::size_t i = 1; i < route.lanelets.size(); ++i) {
+      scenario.further_candidates.push_back(vehicle_on(route, route.lanelet_s_m[i]));
+      scenario.further_candidates.back().name = fmt::format("{} at {}", name, route.lanelets[i]);
+    }
+  }
+}
+
 void add_drawn_cars(const DrawValues& draw, const Routes& routes, const ScenarioChoices& choices,
                     Scenario& scenario) {
   const std::vector<Node> listed = draw.node.list("routes");
@@ -105,16 +115,22 @@ void add_drawn_cars(const DrawValues& draw, const Routes& routes, const Scenario
     scenario.candidates.back().name = draw.routes[i];
   }
   const std::size_t cars = choices.cars.value_or(draw.cars);
+  const auto draw_most = [&] {
+    return draw_cars(scenario, std::min<std::size_t>(cars, kMaxVehicleId), scenario.seed);
+  };
   try {
-    scenario.vehicles =
-        draw_cars(scenario, std::min<std::size_t>(cars, kMaxVehicleId), scenario.seed);
+    scenario.vehicles = draw_most();
+    if (scenario.vehicles.size() < cars) {
+      add_further_candidates(draw, routes, scenario);
+      scenario.vehicles = draw_most();
+    }
   } catch (const std::runtime_error& error) {
     draw.node.fail("routes", fmt::format("starts for random routes: {}", error.what()));
   }
   const std::size_t fitting = scenario.vehicles.size();
   if (fitting == cars) return;
   const std::string allowed =
-      fmt::format("in 1 ... {}: no more cars fit at the starts of `draw`", fitting);
+      fmt::format("in 1 ... {}: no more cars fit on the routes of `draw`", fitting);
   if (!choices.cars) draw.node.fail("cars", allowed);
   throw std::invalid_argument(fmt::format("--cars = {}, must be {}", cars, allowed));
 }

@@ -35,12 +35,13 @@ std::invalid_argument too_many(const Scenario& scenario) {
                   scenario.file.string(), scenario.vehicles.size()));
 }
 
-/// Takes the areas in a random order and leaves out those that overlap with one taken before.
-std::vector<std::size_t> drawn(const std::vector<ConvexPolygon>& areas, std::size_t most,
+/// Takes the areas from `first` to `end` in a random order, besides those taken before, and leaves
+/// out those that overlap with one taken.
+std::vector<std::size_t> drawn(const std::vector<ConvexPolygon>& areas, std::size_t first,
+                               std::size_t end, std::vector<std::size_t> taken, std::size_t most,
                                std::mt19937_64& random) {
-  std::vector<std::size_t> left(areas.size());
-  std::iota(left.begin(), left.end(), std::size_t{0});
-  std::vector<std::size_t> taken;
+  std::vector<std::size_t> left(end - first);
+  std::iota(left.begin(), left.end(), first);
   while (taken.size() < most && !left.empty()) {
     std::swap(left[random_index(random, left.size())], left.back());
     const std::size_t one = left.back();
@@ -77,17 +78,28 @@ ScenarioVehicle on_random_route(ScenarioVehicle vehicle, const road::LaneletMap&
 
 std::vector<ScenarioVehicle> draw_cars(const Scenario& scenario, std::size_t cars,
                                        std::uint64_t seed) {
+  std::vector<const ScenarioVehicle*> candidates;
   std::vector<ConvexPolygon> areas;
-  for (const ScenarioVehicle& one : scenario.candidates) areas.push_back(start_area(scenario, one));
+  for (const auto* list : {&scenario.candidates, &scenario.further_candidates}) {
+    for (const ScenarioVehicle& one : *list) {
+      candidates.push_back(&one);
+      areas.push_back(start_area(scenario, one));
+    }
+  }
   std::mt19937_64 random(seed);
   std::vector<std::size_t> best;
-  for (int draw = 0; draw < kDraws && best.size() < cars; ++draw) {
-    std::vector<std::size_t> taken = drawn(areas, cars, random);
-    if (taken.size() > best.size()) best = std::move(taken);
-  }
+  const auto draw_from = [&](std::size_t first, std::size_t end) {
+    const std::vector<std::size_t> before = best;
+    for (int draw = 0; draw < kDraws && best.size() < cars; ++draw) {
+      std::vector<std::size_t> taken = drawn(areas, first, end, before, cars, random);
+      if (taken.size() > best.size()) best = std::move(taken);
+    }
+  };
+  draw_from(0, scenario.candidates.size());
+  draw_from(scenario.candidates.size(), areas.size());
   std::vector<ScenarioVehicle> vehicles;
   for (const std::size_t i : best) {
-    ScenarioVehicle vehicle = scenario.candidates[i];
+    ScenarioVehicle vehicle = *candidates[i];
     vehicle.id = {static_cast<std::uint8_t>(vehicles.size() + 1)};
     vehicles.push_back(scenario.random_routes_on
                            ? on_random_route(std::move(vehicle), *scenario.random_routes_on, seed)

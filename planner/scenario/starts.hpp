@@ -29,11 +29,13 @@ namespace hlc::scenario {
 /// @pre one arc length per vehicle
 [[nodiscard]] Scenario with_starts(Scenario scenario, std::span<const double> starts_s_m);
 
-/// Draws cars from scenario.candidates, none twice, with ids 1, 2, ..., at the candidates' starts.
-/// A candidate whose footprint with margin overlaps with that of a car drawn before is drawn again.
+/// Draws cars from scenario.candidates, none twice, with ids 1, 2, ..., at the candidates' starts,
+/// and where these are too few the others from scenario.further_candidates. A candidate whose
+/// footprint with margin overlaps with that of a car drawn before is drawn again.
 /// With random routes each car gets its own (random_tour.hpp), of the same seed. The same on every
 /// machine.
 /// @return `cars` of them, or fewer, as many as could be placed in the best of a thousand draws
+/// from each
 [[nodiscard]] std::vector<ScenarioVehicle> draw_cars(const Scenario& scenario, std::size_t cars,
                                                      std::uint64_t seed);
 

@@ -29,12 +29,18 @@ struct LabLimits {
   double point_interval_s{};
   /// A vehicle is at its pose this long after the pose's stamp (kMostPoseLead_s at most).
   double pose_lead_s{};
-  /// Largest position error of a vehicle that follows its commands undisturbed, at stamp + lead. 0:
-  /// not known.
+  /// Largest deviation, of position and heading together (planner/automaton/deviation.hpp), of a
+  /// vehicle that follows its commands undisturbed, at stamp + lead. 0: not known.
   double tracking_error_max_m{};
 };
 
 inline constexpr double kMostPoseLead_s = 0.1;
+inline constexpr double kMostTrackingError_m = 0.1;
+
+/// Of a lab without a description 0.
+[[nodiscard]] inline double pose_lead_s(const std::optional<LabLimits>& lab) {
+  return lab ? lab->pose_lead_s : 0.0;
+}
 
 /// The lab's follower bounds no curvature below this speed; at standstill a path has none.
 inline constexpr double kMinSpeedForCurvature_mps = 0.1;

@@ -6,6 +6,7 @@
 
 #include "planner/scenario/scenario.hpp"
 #include "tests/integration/driven_plan.hpp"
+#include "tests/integration/fault_rules.hpp"
 
 /// The evaluation of a fault of one car's controller or middleware.
 namespace hlc::test {
@@ -22,7 +23,7 @@ struct FaultRecords {
   result::Drives drives;
   Commands commands;
   std::vector<ReportRecord> reports;
-  double tracking_tolerance_m{0.010};  ///< by which a car may be off its plan (fault_rules.hpp)
+  double tracking_tolerance_m{kTrackingTolerance_m};  ///< by which a car may be off its plan
 };
 
 /// The car whose own process is hit cannot get a new plan.

@@ -32,7 +32,8 @@ class FaultyRun {
   [[nodiscard]] bool drives_near_another(VehicleId victim) {
     records_.victim = victim;
     if (run.scenario().lab) {
-      records_.tracking_tolerance_m = run.scenario().lab->tracking_error_max_m;
+      records_.tracking_tolerance_m =
+          std::max(test::kTrackingTolerance_m, run.scenario().lab->tracking_error_max_m);
     }
     return run.comes_to(
         [&] {

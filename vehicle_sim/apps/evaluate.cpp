@@ -195,7 +195,7 @@ void declare_campaign(CLI::App& app, Choices& choices) {
   app.add_option("--map", choices.plan.map_file, "CommonRoad XML instead of the scenarios'");
   app.add_option("--cars", choices.plan.cars,
                  "number of cars (scenarios on a circle, or that draw their cars)")
-      ->check(hlc::apps::whole(1, 30));
+      ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
   app.add_option("--routes", choices.plan.routes,
                  "random: every car takes random turns forever, instead of the scenarios' routes")
       ->check(hlc::apps::among({hlc::scenario::kRandomRoutes}));

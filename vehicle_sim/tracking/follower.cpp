@@ -12,14 +12,14 @@ namespace {
 /// A chord of one tick below this (0.02 mm) is rounding, not a direction.
 constexpr double kStandingSpeed_mps = 1e-3;
 
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+}  // namespace
+
 bool is_finite(const vehicle::VehicleMotion& motion) {
   return std::isfinite(motion.pose.x_m) && std::isfinite(motion.pose.y_m) &&
          std::isfinite(motion.pose.heading_rad) && std::isfinite(motion.speed_mps);
 }
-
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-}  // namespace
 
 FollowerGains scaled(const FollowerGains& gains, double factor) {
   return {.feed_forward = factor * gains.feed_forward,

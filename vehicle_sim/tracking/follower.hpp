@@ -14,6 +14,9 @@ struct FollowerGains {
   double lateral_per_s{5.0};       ///< k_lat, speed towards the reference per error across it
 };
 
+/// True if position, yaw and speed are finite: what a follower needs.
+[[nodiscard]] bool is_finite(const vehicle::VehicleMotion& motion);
+
 /// All gains times `factor`.
 [[nodiscard]] FollowerGains scaled(const FollowerGains& gains, double factor);
 

@@ -13,8 +13,8 @@ constexpr double kStep_s = 0.05;
 constexpr std::array kWeights{1.0, 1.0, 2.0, 1.0, 1.0, 3.0};
 constexpr double kThrottleChange = 0.5;
 constexpr double kSteeringChange = 0.01;
-constexpr double kLargestObjective = 1.5;
-constexpr int kDescents = 20;
+constexpr double kStopObjective = 1.5;
+constexpr int kGradientSteps = 20;
 constexpr double kRate = 0.4;
 constexpr double kMomentum = 0.6;
 /// The thrust has no slope at throttle 0.
@@ -63,17 +63,26 @@ void LabFollower::reset() {
   momentum_.setConstant(kLeastInput);
 }
 
-Follower::Output LabFollower::tick(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
-                                   const TrajectoryCommand* command) {
+void LabFollower::give(const vehicle::ActuatorInput& input) {
+  std::shift_left(last_inputs_.begin(), last_inputs_.end(), 1);
+  last_inputs_.back() = input;
+}
+
+Follower::Output LabFollower::decide(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
+                                     const TrajectoryCommand* command) {
+  if (!is_finite(estimate)) {
+    reset();
+    return {.input = {}, .status = FollowerStatus::kNoEstimate};
+  }
   const vehicle::ActuatorInput stop = vehicle::stop_input(estimate.speed_mps);
   if (command == nullptr || !is_followable(command->points, t_now)) {
-    *this = LabFollower(vehicle_);
+    reset();
     return {
         .input = stop,
         .status = command == nullptr ? FollowerStatus::kNoCommand : FollowerStatus::kNotFollowable};
   }
   vehicle::VehicleMotion start = estimate;
-  for (const vehicle::ActuatorInput& input : given_) {
+  for (const vehicle::ActuatorInput& input : last_inputs_) {
     start = vehicle::stepped(start, input, vehicle_);
   }
   Reference reference;
@@ -81,19 +90,17 @@ Follower::Output LabFollower::tick(Nanoseconds t_now, const vehicle::VehicleMoti
     reference[i] = sample(command->points, t_now + kFirstLook + i * kLookInterval)->position_m;
   }
   Objective last;
-  for (int i = 0; i < kDescents; ++i) {
+  for (int i = 0; i < kGradientSteps; ++i) {
     last = objective(start, reference);
     momentum_ = kMomentum * momentum_ - last.gradient;
     inputs_ = (inputs_ + kRate * momentum_).cwiseMax(-1.0).cwiseMin(1.0);
   }
   Follower::Output output{.input = {.throttle = inputs_[0], .steering = inputs_[kBlocks]},
                           .status = FollowerStatus::kFollowing};
-  if (!(last.value < kLargestObjective)) {
+  if (!(last.value < kStopObjective)) {
     reset();
     output = {.input = stop, .status = FollowerStatus::kTooFar};
   }
-  std::shift_left(given_.begin(), given_.end(), 1);
-  given_.back() = output.input;
   return output;
 }
 
@@ -124,8 +131,8 @@ LabFollower::Objective LabFollower::objective(const vehicle::VehicleMotion& star
       if (i > first) result.gradient[i - 1] -= 2.0 * weight * change;
     }
   };
-  add_changes(0, given_.back().throttle, kThrottleChange);
-  add_changes(kBlocks, given_.back().steering, kSteeringChange);
+  add_changes(0, last_inputs_.back().throttle, kThrottleChange);
+  add_changes(kBlocks, last_inputs_.back().steering, kSteeringChange);
   return result;
 }
 

@@ -33,9 +33,12 @@ class LabFollower {
  public:
   explicit LabFollower(const vehicle::IdentifiedVehicle& vehicle) : vehicle_(vehicle) { reset(); }
 
-  /// The input to give at `t_now`: to be called once per tick. @see Follower::decide
-  [[nodiscard]] Follower::Output tick(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
-                                      const TrajectoryCommand* command);
+  /// The input to give at `t_now`, as Follower::decide: to be called once per tick.
+  [[nodiscard]] Follower::Output decide(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
+                                        const TrajectoryCommand* command);
+
+  /// The input given at this tick, from any source.
+  void give(const vehicle::ActuatorInput& input);
 
  private:
   static constexpr int kSteps = 6;
@@ -56,7 +59,7 @@ class LabFollower {
   vehicle::IdentifiedVehicle vehicle_;
   Inputs inputs_;
   Inputs momentum_;
-  std::array<vehicle::ActuatorInput, 3> given_{};  ///< oldest first
+  std::array<vehicle::ActuatorInput, 3> last_inputs_{};  ///< oldest first
 };
 
 }  // namespace hlc::tracking

@@ -54,12 +54,13 @@ void SimulatedVehicle::measure() {
 
 SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
   const vehicle::VehicleMotion truth = plant_.motion();
-  if (!lab_follower_) measure();
+  const bool moves_first = lab_follower_.has_value();
+  if (!moves_first) measure();
   const Decision decision = decide(t_now);
   follower_.give(decision.input);
-  const auto move = [&] { plant_.step(decision.input); };
-  if (lab_follower_) {
-    move();
+  if (moves_first) {
+    lab_follower_->give(decision.input);
+    plant_.step(decision.input);
     measure();
   }
   const bool follows = decision.status == tracking::FollowerStatus::kFollowing;
@@ -75,7 +76,7 @@ SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
                          .steering = decision.input.steering,
                          .command_create = follows ? decision.command_create : 0},
               .status = decision.status};
-  if (!lab_follower_) move();
+  if (!moves_first) plant_.step(decision.input);
   if (is_braking() && --braking_ticks_left_ == 0) {
     std::apply([](auto&... buffers) { (buffers.clear(), ...); }, commands_);
   }
@@ -84,7 +85,7 @@ SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
 
 tracking::Follower::Output SimulatedVehicle::follow(Nanoseconds t_now,
                                                     const TrajectoryCommand* command) {
-  return lab_follower_ ? lab_follower_->tick(t_now, estimate_, command)
+  return lab_follower_ ? lab_follower_->decide(t_now, estimate_, command)
                        : follower_.decide(t_now, estimate_, command);
 }
 

@@ -166,6 +166,17 @@ TEST(ControllerProgram, RefusesAnAutomatonThatTheLabsVehiclesCannotFollow) {
   EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
 }
 
+TEST(ControllerProgram, RefusesMoreVehiclesThanTheLabHas) {
+  const Outcome outcome = run_program(
+      "high_level_controller --vehicle_ids=1 --cars 31 --scenario=" + test::source_folder() +
+      "/launch_scripts/scenarios/lab_cars.yaml");
+  EXPECT_EQ(outcome.exit_code, kExitBadInput);
+  EXPECT_NE(outcome.output.find("lab_cars.yaml: vehicle 31, must be in 1 ... 30 in the lab"),
+            std::string::npos)
+      << outcome.output;
+  EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
+}
+
 TEST(ControllerProgram, RefusesAVehicleThatIsNamedTwice) {
   const Outcome outcome = run_program("high_level_controller --vehicle_ids=1,2,1");
   EXPECT_EQ(outcome.exit_code, kExitBadInput);

@@ -41,7 +41,7 @@ TEST(Observation, DeadlinesLieBetweenTheListAndTheEndOfItsStep) {
 
 TEST(Observation, APlaceholderIsNotAVehicleAtTheOrigin) {
   const controller::Observation observation =
-      observation_of(list_at(1'000 * kMillisecond + 1, {state(0, 0)}));
+      observation_of(list_at(1'000 * kMillisecond + 1, {state(0, 0)}), 0.0);
   EXPECT_TRUE(observation.states.empty());
   EXPECT_FALSE(is_complete(observation));
 }
@@ -70,24 +70,25 @@ TEST(Observation, AStateWhosePositionWasNotMeasuredForLongIsNotUsed) {
 
 TEST(Observation, TheAgeIsThatAtTheBeginOfTheStep) {
   const controller::Observation observation =
-      observation_of(list_at(1'000 * kMillisecond + 1, {state(1, 940 * kMillisecond)}));
+      observation_of(list_at(1'000 * kMillisecond + 1, {state(1, 940 * kMillisecond)}), 0.0);
   ASSERT_EQ(observation.states.size(), 1U);
   EXPECT_NEAR(observation.states[0].age_s, 0.06, 1e-12);
 }
 
-TEST(Observation, WithALeadThePoseIsYoungerThanItsStamp) {
+TEST(Observation, APoseHasTheLeadOfItsLab) {
   const VehicleStateList list = list_at(1'000 * kMillisecond + 1, {state(1, 940 * kMillisecond)});
-  EXPECT_NEAR(observation_of(list, 0.02).states.at(0).age_s, 0.04, 1e-12);
-  EXPECT_NEAR(observation_of(list, 0.10).states.at(0).age_s, -0.04, 1e-12);
+  const coordination::MeasuredVehicle seen = observation_of(list, 0.02).states.at(0);
+  EXPECT_EQ(seen.pose_lead_s, 0.02);
+  EXPECT_NEAR(seen.age_s, 0.06, 1e-12) << "that of the stamp: what is not known of the lead counts";
 }
 
 TEST(Observation, CompleteMeansAUsableStateOfEveryActiveVehicle) {
   const Nanoseconds now = 1'000 * kMillisecond + 1;
   const auto both = list_at(now, {state(3, 940 * kMillisecond), state(1, 940 * kMillisecond)});
-  const controller::Observation observation = observation_of(both);
+  const controller::Observation observation = observation_of(both, 0.0);
   EXPECT_TRUE(is_complete(observation));
   EXPECT_EQ(observation.active, (std::vector<VehicleId>{{1}, {3}}));
-  EXPECT_FALSE(is_complete(observation_of(list_at(now, {state(3, 940 * kMillisecond)}))));
+  EXPECT_FALSE(is_complete(observation_of(list_at(now, {state(3, 940 * kMillisecond)}), 0.0)));
 }
 
 }  // namespace

@@ -8,10 +8,23 @@
 namespace hlc::high_level_controller::operator_notes_test {
 namespace {
 
+using controller::east_bound::at;
+using controller::east_bound::following;
+using controller::east_bound::seen;
 using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+
+std::vector<machine::LogLine> lines_of(HlcActions& actions) {
+  std::vector<machine::LogLine> lines;
+  for (const HlcAction& action : actions.take())
+    lines.push_back(std::get<machine::LogLine>(action));
+  return lines;
+}
 
 TEST(OperatorNotes, LogThatAVehicleIsStuckOnceInAWait) {
   const auto controller = controller::east_bound::controller(1);
+  static_cast<void>(controller->stand_by(at(99, {seen(1, 0.0, 0.0)})));
   OperatorNotes notes;
   HlcActions actions;
   for (std::uint64_t k = 100; k < 320; ++k) {
@@ -20,14 +33,43 @@ TEST(OperatorNotes, LogThatAVehicleIsStuckOnceInAWait) {
     if (k != 210) report.waiting = {.vehicles = {{4}}, .since = {k < 210 ? 100U : 211U}};
     notes.note_step(*controller, report, actions);
   }
-  std::vector<machine::LogLine> lines;
-  for (const HlcAction& action : actions.take())
-    lines.push_back(std::get<machine::LogLine>(action));
   const machine::LogLine line = machine::warning(
       "stuck: vehicle 1, waiting for 4 for 20.0 s, although its road would be free without the "
       "others; it has not moved since its controller began: if that was at the start of the run, "
       "place the vehicles elsewhere");
-  EXPECT_THAT(lines, ElementsAre(line, line));
+  EXPECT_THAT(lines_of(actions), ElementsAre(line, line));
+}
+
+TEST(OperatorNotes, LogOnceWhatDisturbsAVehicleAndThatItPlansOn) {
+  const auto one = controller::east_bound::controller(1);
+  static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
+  OperatorNotes notes;
+  HlcActions actions;
+  std::uint64_t k = 100;
+  const auto drive = [&](int steps, const std::optional<double>& beside_m) {
+    for (int i = 0; i < steps; ++i) {
+      ++k;
+      coordination::MeasuredVehicle car = following(*one, k);
+      car.pose.y_m += beside_m.value_or(0.0);
+      static_cast<void>(one->observe(
+          at(k, beside_m ? std::vector{car} : std::vector<coordination::MeasuredVehicle>{})));
+      one->couple({});
+      static_cast<void>(one->plan({}));
+      notes.note_step(*one, one->commit({}, {}), actions);
+    }
+  };
+  drive(5, 0.0);
+  drive(3, std::nullopt);
+  drive(2, 0.0);
+  drive(2, 0.080);
+  drive(2, 1.3);
+  drive(1, 0.0);
+  EXPECT_THAT(lines_of(actions),
+              ElementsAre(Field(&machine::LogLine::text, HasSubstr("vehicle 1 is not seen")),
+                          machine::info("vehicle 1 plans on"),
+                          Field(&machine::LogLine::text, HasSubstr("is off its plan by 80 mm")),
+                          Field(&machine::LogLine::text, HasSubstr("vehicle 1 is elsewhere")),
+                          machine::info("vehicle 1 plans on")));
 }
 
 }  // namespace

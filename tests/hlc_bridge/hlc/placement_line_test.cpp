@@ -44,10 +44,8 @@ TEST(PlacementLine, SaysHowFarAVehicleIsOffAndWhatIsAllowed) {
   EXPECT_THAT(line_of({3}, {-1.0, -1.0, 0.0}), HasSubstr("is not on the map"));
 }
 
-TEST(PlacementLine, SaysInWhichDirectionAndHowFarAVehicleIsToBeMovedAndTurned) {
-  const Pose start = scenario::measured_start(three_cars(), three_cars().vehicles[2]);
-  Pose beside = start;
-  beside.y_m -= 0.4;
+/// As the line states, the car can be moved from there into the lanes of its route.
+void expect_leads_onto_green(const Pose& beside) {
   const std::string line = line_of({3}, beside);
   SCOPED_TRACE(line);
   const std::size_t at = line.find("move it by x ");
@@ -65,6 +63,15 @@ TEST(PlacementLine, SaysInWhichDirectionAndHowFarAVehicleIsToBeMovedAndTurned) {
   EXPECT_NEAR(beside.y_m + y_m, to_y_m, 0.011);
   const Pose moved{.x_m = to_x_m, .y_m = to_y_m, .heading_rad = beside.heading_rad + turn_rad};
   EXPECT_THAT(line_of({3}, moved), HasSubstr("selects route green"));
+}
+
+TEST(PlacementLine, SaysInWhichDirectionAndHowFarAVehicleIsToBeMovedAndTurned) {
+  const Pose start = scenario::measured_start(three_cars(), three_cars().vehicles[2]);
+  for (const double turned_rad : {-0.9, 0.0, 0.9}) {
+    Pose beside = compose(start, {0.0, 0.0, turned_rad});
+    beside.y_m -= 0.4;
+    expect_leads_onto_green(beside);
+  }
 }
 
 TEST(StuckLine, NamesTheBudgetIfItWasUsedUp) {

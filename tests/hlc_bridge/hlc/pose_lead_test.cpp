@@ -12,12 +12,27 @@ using controller::Controller;
 using controller::east_bound::at;
 using controller::east_bound::following;
 using controller::east_bound::seen;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
+
+const vehicle::LabLimits kWideLab{.curvature_min_per_m = -10.0,
+                                  .curvature_max_per_m = 10.0,
+                                  .acceleration_max_mps2 = 100.0,
+                                  .velocity_mismatch_max_mps = 1.0,
+                                  .x_min_m = -30.0,
+                                  .x_max_m = 30.0,
+                                  .y_min_m = -30.0,
+                                  .y_max_m = 30.0,
+                                  .point_interval_s = 0.025};
 
 /// Lines of a car that drives east from step 100 on, each pose measured `ahead_s` too early, and in
 /// every fourth step far off.
 std::vector<std::string> lines(double ahead_s, std::uint64_t steps) {
-  const auto one = controller::east_bound::controller(1);
+  const auto one = std::make_unique<Controller>(
+      controller::ControllerOptions{.vehicle = {1}, .lab = kWideLab},
+      controller::east_bound::subgraph(),
+      road::ReferencePath({Point(0.0, 0.0), Point(20.0, 0.0)}, false), road::Corridor{});
   static_cast<void>(one->stand_by(at(100, {seen(1, 0.0, 0.0)})));
   PoseLeadCheck check;
   std::vector<std::string> result;
@@ -39,12 +54,15 @@ TEST(PoseLead, WithinTheToleranceIsNotLogged) {
 }
 
 TEST(PoseLead, BeyondTheToleranceIsLoggedOnceWithItsValue) {
-  EXPECT_THAT(lines(0.020, 60), testing::ElementsAre(HasSubstr("about 20 ms ahead")));
-  EXPECT_THAT(lines(-0.008, 60), testing::ElementsAre(HasSubstr("about -8 ms ahead")));
+  EXPECT_THAT(lines(0.020, 60), testing::ElementsAre(HasSubstr("is 0.000: set it to 0.020")));
+  EXPECT_THAT(lines(-0.008, 60),
+              testing::ElementsAre(AllOf(HasSubstr("about -8 ms ahead"), HasSubstr("its clock"),
+                                         Not(HasSubstr("set it")))));
 }
 
 TEST(PoseLead, OfFewStepsIsNotJudged) {
-  EXPECT_TRUE(lines(0.020, 25).empty()) << "the first one stands";
+  EXPECT_TRUE(lines(0.020, PoseLeadCheck::kLeastSteps + 1).empty()) << "in two it is too slow";
+  EXPECT_EQ(lines(0.020, PoseLeadCheck::kLeastSteps + 2).size(), 1U);
 }
 
 TEST(PoseLead, OfAStandingOrUnseenCarIsNotJudged) {

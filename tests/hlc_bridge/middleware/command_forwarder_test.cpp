@@ -92,8 +92,10 @@ TEST_F(CommandForwarderTest, CountsMissedAnswersAndLogsTheFirst) {
   forwarder_.count_missed_answers(kList + 1, actions);
   EXPECT_EQ(forwarder_.missed_answers(), 3U);
   ASSERT_EQ(actions.size(), 1U);
-  EXPECT_EQ(std::get<machine::LogLine>(actions[0]),
-            machine::warning("high_level_controller_2 has missed the list of 400000001 ns"));
+  EXPECT_EQ(
+      std::get<machine::LogLine>(actions[0]),
+      machine::warning("no answer of high_level_controller_2 to a state list in time; its log may "
+                       "state why (logged once)"));
 }
 
 }  // namespace

@@ -108,10 +108,10 @@ TEST_F(ImpatientMiddlewareTest, CountsMissedAnswersFromTheTriggerOn) {
   run_.on(SystemTrigger{5});
   run_.on(command(1, run_.now().run));
   pass_period();
-  EXPECT_EQ(run_.count_lines("has missed"), 0U);
+  EXPECT_EQ(run_.count_lines("to a state list in time"), 0U);
   pass_period();
   pass_period();
-  EXPECT_EQ(run_.count_lines("high_level_controller_1 has missed the list of"), 1U);
+  EXPECT_EQ(run_.count_lines("no answer of high_level_controller_1 to a state list"), 1U);
   run_.on(machine::StopSignal{});
   EXPECT_EQ(run_.count_lines("2 lists without an answer in time"), 1U);
   EXPECT_EQ(run_.machine().exit_code(), kExitGood);
@@ -120,9 +120,9 @@ TEST_F(ImpatientMiddlewareTest, CountsMissedAnswersFromTheTriggerOn) {
 TEST_F(ImpatientMiddlewareTest, CountsNoListFromBeforeTheTriggersTime) {
   run_.on(SystemTrigger{run_.now().run + 2 * kPeriod});
   for (int i = 0; i < 2; ++i) pass_period();
-  EXPECT_EQ(run_.count_lines("has missed"), 0U);
+  EXPECT_EQ(run_.count_lines("to a state list in time"), 0U);
   for (int i = 0; i < 2; ++i) pass_period();
-  EXPECT_EQ(run_.count_lines("has missed"), 1U);
+  EXPECT_EQ(run_.count_lines("to a state list in time"), 1U);
 }
 
 TEST_F(ImpatientMiddlewareTest, StaysForAWhileWithoutTheLabControl) {

@@ -70,7 +70,8 @@ class AuthorityTest : public testing::Test {
               double step_m = 0.0) {
     std::vector<const Traffic*> pointers;
     for (const Traffic& other : others) pointers.push_back(&other);
-    authority_.extend({1}, pointers, silent, {}, step_m);
+    SharedStep shared;
+    authority_.extend({1}, pointers, silent, {}, step_m, shared);
   }
   [[nodiscard]] double end_m() const {
     return authority_.claim().place_m + authority_.claim().ahead_m;
@@ -160,7 +161,8 @@ TEST(AuthorityOnACrossing, WhoStandsInAConflictCellGivesUnusedRoadBackToo) {
     for (std::uint64_t step = 1; step <= 2 + Authority::kPatience_steps; ++step) {
       authority.begin_step(eight.standing(s_m), {step}, eight.tracker, kReach_m);
       num_given_back += step > 1 && authority.claim().ahead_m < 0.1 ? 1U : 0U;
-      authority.extend({1}, {}, {}, {}, 0.0);
+      SharedStep shared;
+      authority.extend({1}, {}, {}, {}, 0.0, shared);
     }
     EXPECT_EQ(num_given_back, 1U) << s_m;
     num_conflicts += eight.map->is_conflict(0, eight.map->index_of(0, eight.map->count_at(0, s_m)));

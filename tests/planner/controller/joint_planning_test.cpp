@@ -58,21 +58,21 @@ class JointRun {
     const Observation seen = observation(k);
     for (const auto& one : controllers_) traffic.push_back(one->observe(seen));
     for (const auto& one : controllers_) one->couple(traffic);
-    std::map<VehicleId, std::vector<coordination::Prediction>> computed;
+    std::map<VehicleId, coordination::ReceivedMessages<coordination::Prediction>> computed;
     std::vector<coordination::Prediction> own;
     for (std::size_t i = 0; i < controllers_.size(); ++i) {
       ASSERT_TRUE(joint_[i].prepare(*controllers_[i]).empty()) << "step " << k << ", car " << i;
       const VehicleId id = active_[i];
       computed[id] = joint_[i].plan(*controllers_[i]);
-      own.push_back(*std::ranges::find(computed[id], id, &coordination::Prediction::vehicle));
+      own.push_back(*computed[id].find(id, {k}));
     }
     for (const auto& [by, predictions] : computed) {
-      for (const coordination::Prediction& one : predictions) {
-        const auto real = std::ranges::find(own, one.vehicle, &coordination::Prediction::vehicle);
-        ASSERT_EQ(digest_of(one), digest_of(*real))
-            << "step " << k << ", plan of " << int{one.vehicle.value} << " by " << int{by.value};
-        num_for_others_ += one.vehicle != by;
-        num_new_ += one.vehicle != by && one.is_new;
+      for (const auto& one : predictions.all()) {
+        const auto real = std::ranges::find(own, one->vehicle, &coordination::Prediction::vehicle);
+        ASSERT_EQ(digest_of(*one), digest_of(*real))
+            << "step " << k << ", plan of " << int{one->vehicle.value} << " by " << int{by.value};
+        num_for_others_ += one->vehicle != by;
+        num_new_ += one->vehicle != by && one->is_new;
       }
     }
     for (const auto& one : controllers_) static_cast<void>(one->commit(own, {}));

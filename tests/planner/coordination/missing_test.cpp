@@ -36,6 +36,16 @@ TEST(Missing, TheDiscHoldsTheFootprintOfEveryMotionWithinTheTopSpeed) {
   }
 }
 
+TEST(ReachableDisc, DoesNotShrinkByALeadOrAStampAfterTheStepsBegin) {
+  MeasuredVehicle measured = standing();
+  measured.age_s = 0.0;
+  const ConvexPolygon disc = reachable_disc(measured, 0.6, kRules);
+  measured.pose_lead_s = 0.1;
+  EXPECT_EQ(reachable_disc(measured, 0.6, kRules).vertices_m, disc.vertices_m);
+  measured.age_s = -0.05;
+  EXPECT_EQ(reachable_disc(measured, 0.6, kRules).vertices_m, disc.vertices_m);
+}
+
 constexpr std::size_t kHorizon = 8;
 constexpr std::uint64_t kLongest = kSilentSteps + kHorizon + 1;
 

@@ -44,13 +44,13 @@ TEST(Priority, EveryPredecessorIsOnALowerLevel) {
       traffic.push_back(reaching(id, x, place(random)));
     }
     const CouplingGraph graph = graph_of(traffic);
+    const auto levels = computation_levels(graph, smaller_id_first);
     for (const VehicleId vehicle : graph.vehicles()) {
-      const std::uint32_t level = computation_level(graph, vehicle, smaller_id_first);
       std::uint32_t expected = 0;
       for (const VehicleId other : predecessors(graph, vehicle, smaller_id_first)) {
-        expected = std::max(expected, computation_level(graph, other, smaller_id_first) + 1);
+        expected = std::max(expected, levels.at(other) + 1);
       }
-      EXPECT_EQ(level, expected);
+      EXPECT_EQ(levels.at(vehicle), expected);
     }
   }
 }

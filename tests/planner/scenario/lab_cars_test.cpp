@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <span>
 
 #include "planner/road/lap.hpp"
 #include "planner/rollout/rollout.hpp"
@@ -90,6 +91,47 @@ TEST(LabCars, ADrawIsTheSameOnEveryMachine) {
   EXPECT_EQ(other.vehicles[4].id.value, 5);
 }
 
+TEST(LabCars, MoreCarsThanPathsStandAtFurtherLaneletsOfTheirLoops) {
+  ScenarioChoices choices = lab_cars();
+  choices.cars = 33;
+  const Scenario paths = read_scenario(choices);
+  EXPECT_TRUE(paths.further_candidates.empty());
+  choices.cars = 50;
+  const Scenario scenario = read_scenario(choices);
+  ASSERT_EQ(scenario.vehicles.size(), 50U);
+  EXPECT_FALSE(overlapping_starts(scenario));
+  const std::vector<std::string> names = names_of(scenario.vehicles);
+  const std::vector<std::string> first = names_of(paths.vehicles);
+  EXPECT_TRUE(std::ranges::equal(std::span(names).first(33), first)) << "the paths' begins before";
+  for (std::size_t i = 33; i < 50; ++i) {
+    const ScenarioVehicle& vehicle = scenario.vehicles[i];
+    EXPECT_GT(vehicle.start_s_m, 0.0);
+    EXPECT_LT((vehicle.path.at(vehicle.start_s_m) - vehicle.start.position_m()).norm(), 1e-9);
+    EXPECT_TRUE(vehicle.name.ends_with(" at " + std::to_string(vehicle.start_lanelet)))
+        << vehicle.name;
+  }
+  EXPECT_EQ(with_random_starts(scenario, 2).vehicles.size(), 50U);
+}
+
+TEST(LabCars, FiftyCarsDrive) {
+  ScenarioChoices choices = lab_cars();
+  choices.cars = 50;
+  const Scenario scenario = read_scenario(choices);
+  rollout::Rollout rollout = rollout::make_rollout(scenario);
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < 10; ++i) {
+    const std::vector<coordination::Report> reports = rollout.step();
+    ASSERT_EQ(reports.size(), 50U);
+    moved = static_cast<std::size_t>(
+        std::ranges::count_if(reports, [&](const coordination::Report& report) {
+          const Pose& start = vehicle_of(scenario, report.vehicle).start;
+          return (report.planned_pose.position_m() - start.position_m()).norm() > 0.1;
+        }));
+  }
+  EXPECT_GT(moved, 10U);
+  EXPECT_EQ(rollout.controllers().back()->options().vehicle, VehicleId{50});
+}
+
 TEST(LabCars, StartsAreTheSameOnTheLabsMap) {
   ScenarioChoices choices = lab_cars();
   choices.map_file = test::source_folder() + "/../shared/data/LabMapCommonRoad.xml";
@@ -132,12 +174,14 @@ std::string error_of(const std::string& from, const std::string& to, const std::
 }
 
 TEST(LabCars, MoreCarsThanFitAreRefusedWithHowManyDo) {
-  EXPECT_EQ(error_of("cars: 20", "cars: 30"), "");
-  EXPECT_THAT(error_of("cars: 20", "cars: 31"),
-              HasSubstr("draw.cars = 31, must be a whole number >= 1 and <= 30"));
-  // The third car would stand where the first one does.
+  EXPECT_EQ(error_of("cars: 20", "cars: 60"), "");
+  EXPECT_THAT(error_of("cars: 20", "cars: 61"),
+              HasSubstr(".yaml:16: draw.cars = 61, must be in 1 ... 60: no more cars fit"));
+  EXPECT_THAT(error_of("cars: 20", "cars: 256"),
+              HasSubstr("draw.cars = 256, must be a whole number >= 1 and <= 255"));
+  // One loop of twelve lanelets.
   EXPECT_THAT(error_of("[path 9,", "[path 9, path 11, path 9]", "]"),
-              HasSubstr(".yaml:16: draw.cars = 20, must be in 1 ... 2: no more cars fit"));
+              HasSubstr(".yaml:16: draw.cars = 20, must be in 1 ... 12: no more cars fit"));
 }
 
 TEST(LabCars, UnknownRoutesAreNamedWithTheirPlaces) {

@@ -117,8 +117,8 @@ TEST_F(ScenarioErrors, StartPosesThatOverlapAreNamed) {
                     HasSubstr("those of vehicles 1 and 2 do")));
 }
 
-TEST_F(ScenarioErrors, AnIdAboveThirtyIsRefused) {
-  EXPECT_THAT(error_of("id: 2", "id: 31"), AllOf(HasSubstr("31"), HasSubstr("30")));
+TEST_F(ScenarioErrors, AnIdBeyondThoseOfAProcessIsRefused) {
+  EXPECT_THAT(error_of("id: 2", "id: 256"), AllOf(HasSubstr("256"), HasSubstr("255")));
 }
 
 TEST_F(ScenarioErrors, AnIdThatIsTakenTwiceIsRefused) {

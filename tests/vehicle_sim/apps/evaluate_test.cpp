@@ -84,6 +84,13 @@ TEST_F(Evaluate, GoesOnWhereItWasInterrupted) {
   EXPECT_EQ(timeless(results()), whole);
 }
 
+TEST_F(Evaluate, DrivesMoreCarsThanTheLabHas) {
+  const Outcome outcome = run_program("evaluate --scenario lab_cars --cars 40 --steps 5" +
+                                      kScenarios + " --out " + out_.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_EQ(results()["runs"][0]["vehicles"].size(), 40U);
+}
+
 TEST_F(Evaluate, DrawsOtherCarsForEveryStartAndKeepsTheDraw) {
   const Outcome outcome = run_program(
       "evaluate --scenario lab_cars --cars 3 --routes random --starts 2 --steps 10 --keep_runs" +

@@ -42,6 +42,19 @@ TEST(Experiment, DrivesThePapersScenarioToTheEnd) {
   }
 }
 
+TEST(Experiment, DrivesMoreCarsThanTheLabHas) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 50});
+  const result::RunSummary summary = summary_of(scenario, {.steps = 15});
+  EXPECT_EQ(summary.collisions, 0U);
+  ASSERT_EQ(summary.vehicles.size(), 50U);
+  for (const result::VehicleSummary& vehicle : summary.vehicles) {
+    EXPECT_EQ(vehicle.steps, 15U);
+    ASSERT_TRUE(vehicle.tracking_error_m);
+    EXPECT_LT(vehicle.tracking_error_m->max, 0.020);
+  }
+}
+
 TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
   const scenario::Scenario scenario = scenario_of("circle");
   const std::string trace = summary_of(scenario, {.steps = 30, .noise_seed = 5}).trace_sha256;

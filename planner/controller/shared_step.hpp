@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/coordination/coupling.hpp"
+#include "planner/coordination/priority.hpp"
+#include "planner/right_of_way/grant.hpp"
+
+namespace hlc::controller {
+
+/// What controllers that received the same compute alike in a step: within one process it is
+/// computed once. Keeps the last result with all that it depends on; for a controller that received
+/// something else it is computed again, so sharing changes no result.
+class SharedStep {
+ public:
+  struct Coupling {
+    coordination::CouplingGraph graph;
+    std::map<VehicleId, std::uint32_t> levels;  ///< computation_levels
+  };
+
+  /// @param traffic  as for CouplingGraph; kept by address: must outlive this object, unchanged
+  [[nodiscard]] const Coupling& coupling(std::vector<const coordination::Traffic*> traffic,
+                                         coordination::PriorityRule plans_before);
+
+  /// right_of_way::grant. @param holders  sorted by vehicle
+  [[nodiscard]] const std::vector<double>& granted(const right_of_way::ConflictMap& map,
+                                                   const std::vector<right_of_way::Holder>& holders,
+                                                   std::span<const right_of_way::Blocked> blocked,
+                                                   double look_ahead_m);
+
+ private:
+  struct Granted {
+    const right_of_way::ConflictMap* map;
+    std::vector<right_of_way::Holder> holders;
+    std::vector<right_of_way::Blocked> blocked;
+    double look_ahead_m;
+    std::vector<double> ahead_m;
+  };
+
+  std::vector<const coordination::Traffic*> traffic_;  ///< of `coupling_`
+  coordination::PriorityRule plans_before_{};
+  std::optional<Coupling> coupling_;
+  std::optional<Granted> granted_;
+};
+
+}  // namespace hlc::controller

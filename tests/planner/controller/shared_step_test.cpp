@@ -1,0 +1,93 @@
+#include "planner/controller/shared_step.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/geometry/footprint.hpp"
+#include "tests/planner/controller/east_bound.hpp"
+
+namespace hlc::controller::shared_step_test {
+namespace {
+
+using coordination::smaller_id_first;
+using coordination::Traffic;
+using testing::ElementsAre;
+using testing::Pair;
+
+bool larger_id_first(VehicleId a, VehicleId b) { return b < a; }
+
+Traffic reaching(std::uint8_t vehicle, double x_m) {
+  return {.vehicle = {vehicle}, .reachable_area_m = footprint_area({1.0, 1.0}, {x_m, 0.0, 0.0})};
+}
+
+TEST(SharedStep, IsComputedOnceForEqualTraffic) {
+  const Traffic one = reaching(1, 0.0);
+  const Traffic two = reaching(2, 0.5);
+  const Traffic copy = one;
+  SharedStep shared;
+  const auto* const graph = &shared.coupling({&two, &one}, smaller_id_first).graph;
+  const VehicleId* const vehicles = graph->vehicles().data();
+  EXPECT_EQ(shared.coupling({&copy, &two}, smaller_id_first).graph.vehicles().data(), vehicles)
+      << "kept";
+}
+
+TEST(SharedStep, IsComputedAgainForEveryOtherInput) {
+  const Traffic one = reaching(1, 0.0);
+  const Traffic two = reaching(2, 0.5);
+  const Traffic far = reaching(2, 5.0);
+  const Traffic three = reaching(3, 0.5);
+  SharedStep shared;
+  const auto levels = [&](std::vector<const Traffic*> traffic,
+                          coordination::PriorityRule plans_before) {
+    return shared.coupling(std::move(traffic), plans_before).levels;
+  };
+  EXPECT_THAT(levels({&one, &two}, smaller_id_first),
+              ElementsAre(Pair(VehicleId{1}, 0), Pair(VehicleId{2}, 1)));
+  EXPECT_THAT(levels({&one, &two}, larger_id_first),
+              ElementsAre(Pair(VehicleId{1}, 1), Pair(VehicleId{2}, 0)));
+  EXPECT_THAT(levels({&one, &far}, larger_id_first),
+              ElementsAre(Pair(VehicleId{1}, 0), Pair(VehicleId{2}, 0)));
+  EXPECT_THAT(levels({&one, &three}, larger_id_first),
+              ElementsAre(Pair(VehicleId{1}, 1), Pair(VehicleId{3}, 0)));
+  EXPECT_THAT(levels({&one}, larger_id_first), ElementsAre(Pair(VehicleId{1}, 0)));
+}
+
+/// A closed route of 8 m without crossings.
+right_of_way::ConflictMap ring() {
+  const road::ReferencePath path(
+      {Point(0.0, 0.0), Point(2.0, 0.0), Point(2.0, 2.0), Point(0.0, 2.0)}, true);
+  return {std::vector<road::DrivableRoute>{{.name = "ring", .path = path}},
+          automaton::paper_automaton()->vehicle};
+}
+
+TEST(SharedStep, GrantsAreThoseOfWhatIsHeldAndBlocked) {
+  const right_of_way::ConflictMap map = ring();
+  const right_of_way::ConflictMap other_map = ring();
+  const std::vector<right_of_way::Holder> alone{{{1}, {.place_m = 1.0}}};
+  const std::vector<right_of_way::Holder> both{{{1}, {.place_m = 0.5}}, {{2}, {.place_m = 1.2}}};
+  const std::vector<right_of_way::Holder> moved{{{1}, {.place_m = 0.5}}, {{2}, {.place_m = 1.3}}};
+  const std::vector<right_of_way::Blocked> here{{{3}, footprint_area({0.2, 0.2}, {1.6, 0.0, 0.0})}};
+  const std::vector<right_of_way::Blocked> there{
+      {{3}, footprint_area({0.2, 0.2}, {1.7, 0.0, 0.0})}};
+  SharedStep shared;
+  std::vector<std::vector<double>> seen;
+  const auto expect_granted = [&](const right_of_way::ConflictMap& of, const auto& holders,
+                                  const auto& blocked, double look_ahead_m) {
+    const std::vector<double> granted = shared.granted(of, holders, blocked, look_ahead_m);
+    EXPECT_EQ(granted, right_of_way::grant(of, holders, blocked, look_ahead_m));
+    EXPECT_EQ(shared.granted(of, holders, blocked, look_ahead_m), granted);
+    seen.push_back(granted);
+  };
+  const std::vector<right_of_way::Blocked> none;
+  expect_granted(map, alone, none, 1.0);
+  expect_granted(map, alone, here, 1.0);
+  expect_granted(map, alone, there, 1.0);
+  expect_granted(map, both, none, 1.0);
+  expect_granted(map, moved, none, 1.0);
+  expect_granted(map, moved, none, 0.5);
+  for (std::size_t i = 1; i < seen.size(); ++i) EXPECT_NE(seen[i], seen[i - 1]) << i;
+  expect_granted(other_map, moved, none, 0.5);
+}
+
+}  // namespace
+}  // namespace hlc::controller::shared_step_test
