@@ -104,6 +104,7 @@ void lose_pattern(Rollout& rollout, std::uint32_t pattern, StepIndex step) {
 }
 
 constexpr unsigned kGuessSeeds = 60;
+constexpr std::uint64_t kShortStride = 1021;
 
 struct LossCase {
   std::string name;
@@ -156,6 +157,38 @@ INSTANTIATE_TEST_SUITE_P(
                     LossCase{"Cooperative5", kCooperative, 5},
                     LossCase{"TwoRounds3", kCooperative, 3, controller::Rounds::kTwo},
                     LossCase{"TwoRounds5", kCooperative, 5, controller::Rounds::kTwo}),
+    [](const auto& tested) { return tested.param.name; });
+
+/// All pairs of patterns of two consecutive steps: 4096^2 in the long form, evenly spread ones
+/// otherwise.
+class LossOfTwoSteps : public testing::TestWithParam<LossCase> {};
+
+TEST_P(LossOfTwoSteps, NoPairOfPatternsLeadsToPlansThatMeet) {
+  constexpr std::uint64_t kPairs = 1ULL << 24U;
+  const bool is_long = test::num_seeds(1) > 1;
+  // Odd, so that the patterns of both steps vary.
+  const std::uint64_t stride = is_long ? 1 : kShortStride * test::kThinning;
+  const ThreeCars cars{.strategies = GetParam().strategies, .rounds = GetParam().rounds};
+  Rollout before = three_cars_that_meet(cars);
+  for (int i = 0; i < GetParam().steps_before; ++i) static_cast<void>(before.step());
+  for (std::uint64_t pair = 0; pair < kPairs; pair += stride) {
+    Rollout rollout = before.clone();
+    rollout.exchange_in(GetParam().rounds);
+    for (const std::uint32_t pattern :
+         {static_cast<std::uint32_t>(pair >> 12U), static_cast<std::uint32_t>(pair & 0xfffU)}) {
+      lose_pattern(rollout, pattern, rollout.next_step());
+      static_cast<void>(rollout.step());
+      ASSERT_TRUE(plans_in_force_are_free(rollout)) << "pair " << pair;
+    }
+    static_cast<void>(rollout.step());
+    ASSERT_TRUE(plans_in_force_are_free(rollout)) << "a step after pair " << pair;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rules, LossOfTwoSteps,
+    testing::Values(LossCase{"Strict4", kStrict, 4}, LossCase{"Cooperative4", kCooperative, 4},
+                    LossCase{"TwoRounds4", kCooperative, 4, controller::Rounds::kTwo}),
     [](const auto& tested) { return tested.param.name; });
 
 class RandomLoss : public testing::TestWithParam<controller::Rounds> {};
