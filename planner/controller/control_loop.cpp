@@ -140,11 +140,8 @@ StepOutput ControlLoop::proceed(SharedStep* shared) {
 }
 
 void ControlLoop::couple(SharedStep* shared) {
-  if (shared != nullptr) {
-    controller_->couple(received<coordination::Traffic>(), *shared);
-  } else {
-    controller_->couple(received<coordination::Traffic>());
-  }
+  SharedStep alone;
+  controller_->couple(received<coordination::Traffic>(), shared != nullptr ? *shared : alone);
   if (!two_rounds_) return;
   const std::uint64_t from_ns = stopwatch_();
   static_cast<void>(two_rounds_->begin(*controller_));
