@@ -1,7 +1,9 @@
 #include "hlc_bridge/hlc/operator_notes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <ranges>
 #include <utility>
 
 #include "hlc_bridge/hlc/placement_line.hpp"
@@ -45,20 +47,26 @@ void OperatorNotes::note_step(const controller::Controller& controller,
 }
 
 void OperatorNotes::note_rounds(const controller::TwoRounds& rounds, HlcActions& actions) {
-  for (const VehicleId vehicle : rounds.not_shared()) {
-    if (!not_shared_logged_.insert(vehicle).second) continue;
-    actions.warn(
-        fmt::format("plans of vehicle {} cannot be computed here (it misses a controller, changes "
-                    "its subgraph, "
-                    "or has another scenario or automaton); planning one after the other",
-                    vehicle.value));
+  if (!rounds.not_shared().empty() && !is_not_shared_logged_) {
+    actions.warn(fmt::format(
+        "planning one after the other in steps in which not all plans can be computed here; for the "
+        "first time now because of vehicles {} (a controller misses another one, changes its "
+        "subgraph, shares no more, or has another scenario or automaton)",
+        fmt::join(rounds.not_shared() | std::views::transform(&VehicleId::value), " ")));
+    is_not_shared_logged_ = true;
   }
-  if (rounds.differs_from() && !is_difference_logged_) {
+  if (rounds.shares() || is_end_of_sharing_logged_) return;
+  is_end_of_sharing_logged_ = true;
+  if (rounds.differs_from()) {
     actions.error(fmt::format(
         "plans of vehicle {} differ from those computed here from the same traffic; planning one "
         "after the other from now on",
         rounds.differs_from()->value));
-    is_difference_logged_ = true;
+  } else {
+    actions.warn(fmt::format(
+        "{} late steps within {}: planning for all that matter takes too long on this machine; "
+        "planning one after the other from now on",
+        controller::TwoRounds::kMostLateSteps, controller::TwoRounds::kLateWindow));
   }
 }
 

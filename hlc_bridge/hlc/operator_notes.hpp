@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 
 #include "hlc_bridge/hlc/hlc_core.hpp"
@@ -31,8 +30,8 @@ class OperatorNotes {
   void note_step(const controller::Controller& controller, const coordination::Report& report,
                  HlcActions& actions);
 
-  /// With two rounds: whose plans cannot be computed here, so that vehicles plan one after the
-  /// other; of each vehicle once.
+  /// With two rounds: that vehicles plan one after the other, for the first time, because of whom;
+  /// and that this controller shares no more, and why.
   void note_rounds(const controller::TwoRounds& rounds, HlcActions& actions);
 
   /// @param answer  the step's
@@ -50,8 +49,8 @@ class OperatorNotes {
   bool is_budget_logged_{};
   std::uint64_t cut_off_steps_{};  ///< consecutive, in which the vehicle was kept from driving off
   coordination::StuckNotice stuck_;
-  std::set<VehicleId> not_shared_logged_;
-  bool is_difference_logged_{};
+  bool is_not_shared_logged_{};
+  bool is_end_of_sharing_logged_{};
   std::string last_fault_;
   PoseLeadCheck pose_lead_;
 };

@@ -27,7 +27,7 @@ StepOutput ControlLoop::begin(const Observation& observation) {
   planning_ns_ = 0;
   phase_ = StepPhase::kTraffic;
   StepOutput output{.traffic = controller_->observe(observation)};
-  if (!two_rounds_ || two_rounds_->differs_from()) output.traffic->planning.reset();
+  if (!two_rounds_ || !two_rounds_->shares()) output.traffic->planning.reset();
   return output;
 }
 
@@ -174,6 +174,9 @@ StepOutput ControlLoop::commit() {
 StepOutput ControlLoop::fall_back(coordination::FallbackReason reason) {
   HLC_DEMAND(is_in_step());
   phase_ = StepPhase::kIdle;
+  if (reason == coordination::FallbackReason::kLate && is_in_two_rounds()) {
+    two_rounds_->note_late(step_);
+  }
   return {.report = controller_->fall_back(reason)};
 }
 

@@ -23,7 +23,7 @@ bool TwoRounds::begin(const Controller& own) {
   computed_ = {};
   not_shared_.clear();
   is_begun_ = false;
-  if (differs_from_) return false;
+  if (!shares()) return false;
   not_shared_ = joint_.prepare(own);
   is_begun_ = not_shared_.empty();
   return is_begun_;
@@ -70,6 +70,12 @@ void TwoRounds::compare(VehicleId vehicle, bool is_same, const coordination::Pla
   std::size_t& steps = differing_steps_[vehicle];
   steps = is_proof ? steps + 1 : 0;
   if (steps >= own.options().horizon_steps && !differs_from_) differs_from_ = vehicle;
+}
+
+void TwoRounds::note_late(StepIndex step) {
+  std::erase_if(late_, [&](StepIndex before) { return before.value + kLateWindow <= step.value; });
+  late_.push_back(step);
+  if (late_.size() >= kMostLateSteps) is_too_slow_ = true;
 }
 
 }  // namespace hlc::controller

@@ -31,13 +31,20 @@ namespace hlc::controller {
 /// that nobody can compute its plan, and publishes its prediction, too.
 ///
 /// A controller whose digests differ from another's for a horizon although both had the same inputs
-/// computes other bits (another mathematical library): it shares no more (`differs_from`).
+/// computes other bits (another mathematical library): it shares no more (`differs_from`). Neither
+/// does one that is late too often, since planning for all takes as many times longer as there are
+/// vehicles that matter (`is_too_slow`); all of its component plan one after the other then, which
+/// needs more messages, and less of each processor.
 class TwoRounds {
  public:
   explicit TwoRounds(ControllerFactory others) : joint_(std::move(others)) {}
 
   /// The vehicle whose plans differ although the inputs agree; from then on `begin` returns false.
   [[nodiscard]] std::optional<VehicleId> differs_from() const { return differs_from_; }
+  /// It was late in kMostLateSteps steps with two rounds within kLateWindow; from then on `begin`
+  /// returns false.
+  [[nodiscard]] bool is_too_slow() const { return is_too_slow_; }
+  [[nodiscard]] bool shares() const { return !differs_from_ && !is_too_slow_; }
   /// Vehicles of the component that could not be planned for in this step.
   [[nodiscard]] std::span<const VehicleId> not_shared() const { return not_shared_; }
 
@@ -55,6 +62,12 @@ class TwoRounds {
       Controller& own, const coordination::ReceivedMessages<coordination::Prediction>& predictions,
       const coordination::ReceivedMessages<coordination::Outcome>& outcomes);
 
+  /// The step with two rounds did not end in time.
+  void note_late(StepIndex step);
+
+  static constexpr std::size_t kMostLateSteps = 3;
+  static constexpr std::uint64_t kLateWindow = 50;  ///< control steps
+
  private:
   void compare(VehicleId vehicle, bool is_same, const coordination::PlanDigests& received,
                const Controller& own);
@@ -66,6 +79,8 @@ class TwoRounds {
   std::uint64_t inputs_{};  ///< digest
   std::map<VehicleId, std::size_t> differing_steps_;
   std::optional<VehicleId> differs_from_;
+  std::vector<StepIndex> late_;  ///< within kLateWindow of the last one
+  bool is_too_slow_{};
 };
 
 }  // namespace hlc::controller

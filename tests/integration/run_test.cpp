@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <random>
+#include <regex>
 
 #include "tests/integration/lab_processes.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {
 namespace {
@@ -129,6 +132,31 @@ TEST(Run, CarsOnACircleCrossWithoutTouching) {
   EXPECT_EQ(summary["collisions"], 0);
   EXPECT_EQ(summary["vehicles"].size(), 4U);
   EXPECT_TRUE(summary["vehicles"][0]["lap_s"].is_null());
+}
+
+/// The shipped scenario with `rounds: two`.
+std::filesystem::path in_two_rounds(const std::string& name, const TemporaryFolder& folder) {
+  const std::string scripts = source_folder() + "/launch_scripts";
+  const std::string text = read_text(scripts + "/scenarios/" + name + ".yaml");
+  const std::filesystem::path file = folder.path() / (name + ".yaml");
+  std::ofstream(file) << std::regex_replace(text, std::regex(R"(\.\./)"), scripts + "/")
+                      << "rounds: two\n";
+  return file;
+}
+
+TEST(Run, InTwoRoundsCarsDriveAsTheyDoOneAfterTheOther) {
+  const TemporaryFolder folder;
+  LabProcesses sequential({.scenario = "lab_cars", .cars = 5, .steps = 40});
+  const nlohmann::json expected = drive(sequential, sequential.names());
+  LabProcesses two(
+      {.scenario = in_two_rounds("lab_cars", folder).string(), .cars = 5, .steps = 40});
+  const nlohmann::json summary = drive(two, two.names());
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary["trace_sha256"], expected["trace_sha256"]);
+  for (int id = 1; id <= 5; ++id) {
+    EXPECT_THAT(two.log("high_level_controller_" + std::to_string(id)),
+                testing::Not(testing::HasSubstr("one after the other")));
+  }
 }
 
 TEST(Run, RealTimeDrivesToTheEnd) {

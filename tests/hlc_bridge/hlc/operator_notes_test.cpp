@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "planner/controller/control_loop.hpp"
 #include "tests/planner/controller/east_bound.hpp"
 
 namespace hlc::high_level_controller::operator_notes_test {
@@ -70,6 +71,52 @@ TEST(OperatorNotes, LogOnceWhatDisturbsAVehicleAndThatItPlansOn) {
                           Field(&machine::LogLine::text, HasSubstr("is off its plan by 80 mm")),
                           Field(&machine::LogLine::text, HasSubstr("vehicle 1 is elsewhere")),
                           machine::info("vehicle 1 plans on")));
+}
+
+/// Car 1 of a controller that plans for others, beside car 2, whose traffic comes without a
+/// planning input.
+class NotesOfRounds : public testing::Test {
+ protected:
+  void step(std::uint64_t k) {
+    const std::vector states{seen(1, 0.0, 0.0), seen(2, 0.0, 0.3)};
+    const auto two = controller::east_bound::controller(2, 0.3);
+    static_cast<void>(loop_.begin(at(k, states)));
+    static_cast<void>(two->stand_by(at(k - 1, states)));
+    loop_.receive(two->observe(at(k, states)));
+    static_cast<void>(loop_.proceed());
+    notes_.note_rounds(*loop_.two_rounds(), actions_);
+    static_cast<void>(loop_.proceed());
+    static_cast<void>(loop_.proceed());
+  }
+
+  controller::Controller one_{
+      controller::ControllerOptions{
+          .vehicle = {1}, .others = [](VehicleId) { return std::unique_ptr<controller::Controller>(); }},
+      controller::east_bound::subgraph(),
+      road::ReferencePath({Point(0.0, 0.0), Point(10.0, 0.0)}, false), road::Corridor{}};
+  controller::ControlLoop loop_{one_, {}, controller::Rounds::kTwo};
+  OperatorNotes notes_;
+  HlcActions actions_;
+};
+
+TEST_F(NotesOfRounds, LogOnceForWhomVehiclesPlanOneAfterTheOther) {
+  static_cast<void>(loop_.stand_by(at(99, {seen(1, 0.0, 0.0), seen(2, 0.0, 0.3)})));
+  step(100);
+  step(101);
+  EXPECT_THAT(lines_of(actions_),
+              ElementsAre(Field(&machine::LogLine::text, HasSubstr("because of vehicles 2 ("))));
+}
+
+TEST(OperatorNotes, LogOnceThatPlanningForAllTakesTooLong) {
+  controller::TwoRounds rounds({});
+  OperatorNotes notes;
+  HlcActions actions;
+  for (std::uint64_t k = 100; k < 110; ++k) {
+    rounds.note_late({k});
+    notes.note_rounds(rounds, actions);
+  }
+  EXPECT_THAT(lines_of(actions),
+              ElementsAre(Field(&machine::LogLine::text, HasSubstr("3 late steps within 50"))));
 }
 
 }  // namespace

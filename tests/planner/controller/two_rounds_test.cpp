@@ -53,6 +53,24 @@ class TwoRoundsTest : public testing::Test {
     from_second_ = second_->proceed();
   }
 
+  enum class Ends { kInTime, kTooLate };
+
+  /// Steps in which all arrives; in the last one car 1 ends so.
+  void drive(std::uint64_t steps, Ends last) {
+    for (std::uint64_t i = 0; i < steps; ++i, ++next_) {
+      plan(next_);
+      if (from_second_.outcome) first_->receive(*from_second_.outcome);
+      if (from_first_.outcome) second_->receive(*from_first_.outcome);
+      if (last == Ends::kTooLate && i + 1 == steps) {
+        static_cast<void>(first_->fall_back(coordination::FallbackReason::kLate));
+      } else {
+        static_cast<void>(end(*first_));
+      }
+      static_cast<void>(end(*second_));
+      states_ = {following(*one_, next_ + 1), following(*two_, next_ + 1)};
+    }
+  }
+
   [[nodiscard]] coordination::Report end(ControlLoop& loop) { return *loop.proceed().report; }
 
   std::vector<coordination::MeasuredVehicle> states_{seen(1, 0.0, 0.0), seen(2, 0.0, kSecond_y_m)};
@@ -63,6 +81,7 @@ class TwoRoundsTest : public testing::Test {
   std::array<coordination::Traffic, 2> traffic_;
   StepOutput from_first_;
   StepOutput from_second_;
+  std::uint64_t next_{101};  ///< step of `drive`
 };
 
 TEST_F(TwoRoundsTest, PlanWithoutWaitingForEachOther) {
@@ -202,6 +221,28 @@ TEST_F(TwoRoundsTest, WithOtherInputsAreNotFoundToComputeOtherBits) {
     states_ = {following(*one_, 102 + i), following(*two_, 102 + i)};
   }
   EXPECT_FALSE(second_->two_rounds()->differs_from());
+}
+
+// Car 1 takes so long to plan for both that its steps end too late.
+TEST_F(TwoRoundsTest, ThatAreLateTooOftenShareNoMore) {
+  stand();
+  for (std::size_t i = 0; i < TwoRounds::kMostLateSteps; ++i) {
+    EXPECT_TRUE(first_->two_rounds()->shares()) << i;
+    drive(TwoRounds::kLateWindow / 2 - 1, Ends::kTooLate);
+  }
+  EXPECT_TRUE(first_->two_rounds()->is_too_slow());
+  EXPECT_TRUE(second_->two_rounds()->shares()) << "it was in time";
+  plan(next_);
+  EXPECT_FALSE(traffic_[0].planning);
+  EXPECT_TRUE(from_first_.prediction);
+}
+
+TEST_F(TwoRoundsTest, ThatAreLateNowAndThenGoOnSharing) {
+  stand();
+  for (std::size_t i = 0; i < 2 * TwoRounds::kMostLateSteps; ++i) {
+    drive(TwoRounds::kLateWindow / 2, Ends::kTooLate);
+  }
+  EXPECT_TRUE(first_->two_rounds()->shares());
 }
 
 TEST_F(TwoRoundsTest, UnderARuleThatNeedsVotesPlanOneAfterTheOther) {
