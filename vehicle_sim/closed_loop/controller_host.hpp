@@ -15,6 +15,10 @@ class ControllerHost : public Host {
   using Machine = high_level_controller::HlcMachine;
   using Host::perform;
 
+  ControllerHost() = default;
+  /// @param has_other_bits  digests of its plans are others than those that others compute
+  explicit ControllerHost(bool has_other_bits) : has_other_bits_(has_other_bits) {}
+
   [[nodiscard]] static NodeDescription description(std::uint8_t vehicle) {
     return {.name = controller_name(vehicle),
             .writes = {{TopicId::kTraffic},
@@ -84,9 +88,13 @@ class ControllerHost : public Host {
     publish(kPredictions, prediction);
   }
   void perform(const coordination::Outcome& outcome) const {
-    // The others have computed the prediction themselves.
-    if (outcome.digests) place().observer->on_prediction(machine_->controller().prediction());
-    publish(kOutcomes, outcome);
+    coordination::Outcome sent = outcome;
+    if (sent.digests) {
+      // The others have computed the prediction themselves.
+      place().observer->on_prediction(machine_->controller().prediction());
+      if (has_other_bits_) ++sent.digests->plan;
+    }
+    publish(kOutcomes, sent);
   }
   void perform(const TrajectoryCommand& command) const {
     place().observer->on_command(command);
@@ -127,6 +135,7 @@ class ControllerHost : public Host {
   };
 
   const high_level_controller::HlcMachine* machine_{};
+  bool has_other_bits_{};
 };
 
 }  // namespace hlc::closed_loop

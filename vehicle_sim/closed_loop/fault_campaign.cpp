@@ -28,6 +28,17 @@ FaultStyle any_style(SeededRandom& random) {
   return kStyles[random.below(kStyles.size())];
 }
 
+/// In half of the runs.
+std::optional<DifferentController> any_difference(const std::vector<std::uint8_t>& vehicle_ids,
+                                                  SeededRandom& random) {
+  constexpr std::array kDifferences{Difference::kSequential, Difference::kOtherBasis,
+                                    Difference::kOtherBits};
+  if (random.chance(0.5)) return std::nullopt;
+  const std::uint8_t vehicle = vehicle_ids[random.below(vehicle_ids.size())];
+  return DifferentController{.vehicle = vehicle,
+                             .difference = kDifferences[random.below(kDifferences.size())]};
+}
+
 }  // namespace
 
 scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars) {
@@ -76,7 +87,6 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
   const Prepared& drawn = is_on_roads ? chosen->second.roads : *circle;
   the_case.scenario =
       is_on_roads ? scenario::with_random_starts(drawn.scenario, random.next()) : drawn.scenario;
-  if (settings_.has_two_rounds) the_case.scenario.rounds = controller::Rounds::kTwo;
   FaultRunSettings& run = the_case.run;
   run.lab.prepared = drawn.subgraph;
   run.lab.seed = seed;
@@ -92,6 +102,10 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
     plan.vehicle_ids.push_back(vehicle.id.value);
   }
   run.faults = draw_faults(random.next(), plan);
+  if (settings_.has_two_rounds) {
+    the_case.scenario.rounds = controller::Rounds::kTwo;
+    run.lab.different = any_difference(plan.vehicle_ids, random);
+  }
   return the_case;
 }
 
@@ -127,6 +141,7 @@ std::string describe(const FaultCase& the_case) {
                      (the_case.run.lab.is_logical ? "logical" : "real") + " time, endpoints of " +
                      (the_case.run.lab.transport == Transport::kLab ? "the lab" : "loopback") +
                      "\n";
+  if (the_case.run.lab.different) text += "  " + to_string(*the_case.run.lab.different) + "\n";
   for (const Fault& fault : the_case.run.faults) text += "  " + to_string(fault) + "\n";
   return text;
 }

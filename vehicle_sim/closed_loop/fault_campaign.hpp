@@ -18,7 +18,7 @@ struct FaultCampaignSettings {
   bool on_lab_network{};                  ///< all runs on the roads of lab_cars
   std::size_t cars{};                     ///< 3 ... 8; 0: by the seed
   std::vector<FaultKind> kinds;           ///< of the faults; empty: no faults
-  bool has_two_rounds{};                  ///< instead of what the scenarios have
+  bool has_two_rounds{};                  ///< with one that differs in half of the runs
 };
 
 /// The case of a seed.

@@ -71,10 +71,13 @@ high_level_controller::HlcMachine controller(const scenario::Scenario& scenario,
           : high_level_controller::rules_in_real_time(
                 is_in_the_lab, high_level_controller::StepDeadlines{}, kStartupTimeout);
   rules.warms_up = false;
+  scenario::Scenario own = scenario;
+  if (settings.differs(id, Difference::kSequential)) own.rounds = controller::Rounds::kSequential;
+  if (settings.differs(id, Difference::kOtherBasis)) ++own.search.max_expansions;
   return {{.rules = rules,
            .startup_timeout = kStartupTimeout,
            .reconfiguration = scenario.reconfiguration},
-          scenario::make_controller(scenario, VehicleId{id}, *settings.prepared)};
+          scenario::make_controller(own, VehicleId{id}, *settings.prepared)};
 }
 
 }  // namespace
@@ -91,6 +94,19 @@ std::string name_of(const ProcessKey& key) {
       return controller_name(key.vehicle);
   }
   return {};
+}
+
+std::string to_string(const DifferentController& one) {
+  const std::string vehicle = "controller " + std::to_string(one.vehicle);
+  switch (one.difference) {
+    case Difference::kSequential:
+      return vehicle + " does not share";
+    case Difference::kOtherBasis:
+      return vehicle + " plans by other rules";
+    case Difference::kOtherBits:
+      return vehicle + " computes other bits";
+  }
+  return vehicle;
 }
 
 ProcessFactory::ProcessFactory(const scenario::Scenario& scenario, const LabSettings& settings)
@@ -136,7 +152,8 @@ std::unique_ptr<SimulatedProcess> ProcessFactory::make(const ProcessKey& key,
     case Role::kMiddleware:
       return wrapped(place, MiddlewareHost(key.vehicle, ids_), middleware(key.vehicle, settings_));
     case Role::kController:
-      return wrapped(place, ControllerHost(), controller(*scenario_, key.vehicle, settings_));
+      return wrapped(place, ControllerHost(settings_.differs(key.vehicle, Difference::kOtherBits)),
+                     controller(*scenario_, key.vehicle, settings_));
   }
   return nullptr;
 }

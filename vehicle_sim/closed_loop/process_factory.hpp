@@ -22,6 +22,19 @@ struct ProcessKey {
 /// The name that its participants bear (messages/node_names.hpp).
 [[nodiscard]] std::string name_of(const ProcessKey& key);
 
+/// How one controller differs from the others of a scenario with two rounds.
+enum class Difference : std::uint8_t {
+  kSequential,  ///< it does not share
+  kOtherBasis,  ///< it plans by other rules than the others know of it
+  kOtherBits,   ///< its plans have other digests than those that the others compute from its traffic
+};
+
+struct DifferentController {
+  std::uint8_t vehicle{};
+  Difference difference{};
+};
+[[nodiscard]] std::string to_string(const DifferentController& one);
+
 struct LabSettings {
   /// Delays, clocks, starts of processes and noise of measurements.
   std::uint64_t seed{};
@@ -30,6 +43,11 @@ struct LabSettings {
   std::uint64_t steps{100};  ///< of the run in logical time; in real time it is interrupted
   /// The scenario's subgraph; none: each run prepares it.
   std::optional<controller::PreparedSubgraph> prepared{};
+  std::optional<DifferentController> different{};
+
+  [[nodiscard]] bool differs(std::uint8_t vehicle, Difference how) const {
+    return different && different->vehicle == vehicle && different->difference == how;
+  }
 };
 
 /// Creates the processes of a scenario's run, each as its program would: machine, rules, endpoints.
