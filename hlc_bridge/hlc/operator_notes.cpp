@@ -49,7 +49,8 @@ void OperatorNotes::note_step(const controller::Controller& controller,
 void OperatorNotes::note_rounds(const controller::TwoRounds& rounds, HlcActions& actions) {
   if (!rounds.not_shared().empty() && !is_not_shared_logged_) {
     actions.warn(fmt::format(
-        "planning one after the other in steps in which not all plans can be computed here; for the "
+        "planning one after the other in steps in which not all plans can be computed here; for "
+        "the "
         "first time now because of vehicles {} (a controller misses another one, changes its "
         "subgraph, shares no more, or has another scenario or automaton)",
         fmt::join(rounds.not_shared() | std::views::transform(&VehicleId::value), " ")));

@@ -76,9 +76,9 @@ class Authority {
   std::vector<right_of_way::Holder> holders_;
   std::vector<right_of_way::Blocked> blocked_;
   std::size_t own_place_{};
-  bool is_limited_{};  ///< the end limits planning
+  bool is_limited_{};                                   ///< the end limits planning
   std::map<VehicleId, coordination::LaneClaim> known_;  ///< the last of each other vehicle
-  std::uint32_t unused_steps_{};           ///< for which it has stood with road in front of it
+  std::uint32_t unused_steps_{};  ///< for which it has stood with road in front of it
   bool has_place_{};
 };
 

@@ -26,7 +26,7 @@ struct ProcessKey {
 enum class Difference : std::uint8_t {
   kSequential,  ///< it does not share
   kOtherBasis,  ///< it plans by other rules than the others know of it
-  kOtherBits,   ///< its plans have other digests than those that the others compute from its traffic
+  kOtherBits,  ///< its plans have other digests than those that the others compute from its traffic
 };
 
 struct DifferentController {

@@ -91,7 +91,8 @@ class NotesOfRounds : public testing::Test {
 
   controller::Controller one_{
       controller::ControllerOptions{
-          .vehicle = {1}, .others = [](VehicleId) { return std::unique_ptr<controller::Controller>(); }},
+          .vehicle = {1},
+          .others = [](VehicleId) { return std::unique_ptr<controller::Controller>(); }},
       controller::east_bound::subgraph(),
       road::ReferencePath({Point(0.0, 0.0), Point(10.0, 0.0)}, false), road::Corridor{}};
   controller::ControlLoop loop_{one_, {}, controller::Rounds::kTwo};
