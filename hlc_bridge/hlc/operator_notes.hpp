@@ -30,8 +30,8 @@ class OperatorNotes {
   void note_step(const controller::Controller& controller, const coordination::Report& report,
                  HlcActions& actions);
 
-  /// With two rounds: that vehicles plan one after the other, for the first time, because of whom;
-  /// and that this controller shares no more, and why.
+  /// With two rounds: that vehicles plan one after the other, for the first time, and which
+  /// vehicles are the reason; that this controller shares no more, and why.
   void note_rounds(const controller::TwoRounds& rounds, HlcActions& actions);
 
   /// @param answer  the step's
