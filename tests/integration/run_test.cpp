@@ -138,7 +138,7 @@ TEST(Run, CarsOnACircleCrossWithoutTouching) {
 std::filesystem::path in_two_rounds(const std::string& name, const TemporaryFolder& folder) {
   const std::string scripts = source_folder() + "/launch_scripts";
   const std::string text = read_text(scripts + "/scenarios/" + name + ".yaml");
-  const std::filesystem::path file = folder.path() / (name + ".yaml");
+  std::filesystem::path file = folder.path() / (name + ".yaml");
   std::ofstream(file) << std::regex_replace(text, std::regex(R"(\.\./)"), scripts + "/")
                       << "rounds: two\n";
   return file;
