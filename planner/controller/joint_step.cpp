@@ -23,6 +23,11 @@ class Exchange {
     }
   }
 
+  void deliver(StepOutput output) const {
+    if (output.prediction) deliver(MessageKind::kPrediction, *std::move(output.prediction));
+    if (output.outcome) deliver(MessageKind::kOutcome, *output.outcome);
+  }
+
   void deliver(const ExternalMessages& messages) const {
     for (const coordination::Traffic& one : messages.traffic) deliver(MessageKind::kTraffic, one);
     for (const coordination::Prediction& one : messages.predictions)
@@ -73,11 +78,7 @@ std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops
       reports[i] = *loops[i]->fall_back(coordination::FallbackReason::kLate).report;
       continue;
     }
-    StepOutput output = plan(*loops[i], rules);
-    if (output.prediction) {
-      exchange.deliver(MessageKind::kPrediction, *std::move(output.prediction));
-    }
-    if (output.outcome) exchange.deliver(MessageKind::kOutcome, *output.outcome);
+    exchange.deliver(plan(*loops[i], rules));
   }
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (loops[i]->is_in_step()) reports[i] = *loops[i]->proceed().report;

@@ -61,12 +61,14 @@ namespace {
 /// They plan for other vehicles only, so they need no others themselves.
 controller::ControllerFactory others_of(const Scenario& scenario,
                                         const controller::PreparedSubgraph& on) {
-  auto others = std::make_shared<Scenario>(scenario);
-  others->rounds = controller::Rounds::kSequential;
-  return [others = std::shared_ptr<const Scenario>(std::move(others)), on](VehicleId id) {
+  Scenario sequential = scenario;
+  sequential.rounds = controller::Rounds::kSequential;
+  const auto others = std::make_shared<const Scenario>(std::move(sequential));
+  return [others, on](VehicleId id) -> std::unique_ptr<controller::Controller> {
     const bool is_named =
         std::ranges::find(others->vehicles, id, &ScenarioVehicle::id) != others->vehicles.end();
-    return is_named || !others->routes.empty() ? make_controller(*others, id, on) : nullptr;
+    if (!is_named && others->routes.empty()) return nullptr;
+    return make_controller(*others, id, on);
   };
 }
 

@@ -97,7 +97,7 @@ std::string name_of(const ProcessKey& key) {
 }
 
 std::string to_string(const DifferentController& one) {
-  const std::string vehicle = "controller " + std::to_string(one.vehicle);
+  std::string vehicle = "controller " + std::to_string(one.vehicle);
   switch (one.difference) {
     case Difference::kSequential:
       return vehicle + " does not share";
