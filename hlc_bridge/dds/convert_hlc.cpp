@@ -278,7 +278,7 @@ Incoming<coordination::Outcome> from_wire(const OutcomeMessage& wire) {
 
 // A name that is too long is cut: without the report its sender would seem dead.
 void to_wire(const ReportRecord& message, ReportMessage& wire) {
-  const auto& [report, planning_ns, deadline_missed, late_ns] = message;
+  const auto& [report, planning_ns, deadline_missed, late_ns, response_ns] = message;
   const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,
                cost_m2, quality, gap_m2, generated, expanded, level, coupled, missing, deviation_m,
                waiting] = report;
@@ -303,6 +303,7 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   wire.planning_ns(planning_ns);
   wire.deadline_missed(deadline_missed);
   wire.late_ns(late_ns);
+  wire.response_ns(response_ns);
   wire.waits_for(ids_to_wire(waits_for));
   wire.waits_since(waits_since.value);
 }
@@ -330,7 +331,12 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
       .missing = ids_from_wire(wire.missing()),
       .deviation_m = wire.deviation_m(),
       .waiting = {.vehicles = ids_from_wire(wire.waits_for()), .since = {wire.waits_since()}}};
-  return {ReportRecord{report, wire.planning_ns(), wire.deadline_missed(), wire.late_ns()}, 0};
+  return {ReportRecord{.report = report,
+                       .planning_ns = wire.planning_ns(),
+                       .deadline_missed = wire.deadline_missed(),
+                       .late_ns = wire.late_ns(),
+                       .response_ns = wire.response_ns()},
+          0};
 }
 
 void to_wire(const RunState& message, RunStateMessage& wire) {

@@ -251,6 +251,8 @@ bool HlcMachine::step(const Instant& now) {
 /// iteration.
 void HlcMachine::finish(ReportRecord record, const Instant& now) {
   publish_command(record.report, now);
+  // A clock that is set back gives none.
+  record.response_ns = std::max(now.run, current_.list.t_now) - current_.list.t_now;
   current_.record = std::move(record);
   phase_ = Phase::kReporting;
 }

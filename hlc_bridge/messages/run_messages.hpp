@@ -13,6 +13,9 @@ struct ReportRecord {
   Nanoseconds planning_ns{};
   bool deadline_missed{};  ///< an answer of this step came after its deadline
   Nanoseconds late_ns{};   ///< by how much
+  /// Response time: from t_now of the step's list until its command, by the clock of the run. 0 in
+  /// logical time, whose clock stands meanwhile.
+  Nanoseconds response_ns{};
 };
 
 enum class RunPhase : std::uint8_t {

@@ -31,13 +31,14 @@ std::string steps_csv(std::span<const result::StepRecord> rows) {
 
 std::string timing_csv(std::span<const result::StepRecord> rows) {
   constexpr double kMillisecondsPerNanosecond = 1e-6;
-  std::string text = "step,id,planning_ms,deadline_missed,late_ms\n";
+  std::string text = "step,id,planning_ms,deadline_missed,late_ms,response_ms\n";
   for (const result::StepRecord& row : rows) {
     const ReportRecord& record = row.record;
     text += CsvLine(row.step, record.report.vehicle.value,
                     static_cast<double>(record.planning_ns) * kMillisecondsPerNanosecond,
                     record.deadline_missed,
-                    static_cast<double>(record.late_ns) * kMillisecondsPerNanosecond)
+                    static_cast<double>(record.late_ns) * kMillisecondsPerNanosecond,
+                    static_cast<double>(record.response_ns) * kMillisecondsPerNanosecond)
                 .text();
   }
   return text;

@@ -89,6 +89,10 @@ std::string summary_json(const result::RunSummary& summary) {
   json["collisions"] = summary.collisions;
   json["wall_s"] = summary.wall_s;
   json["realtime_factor"] = summary.realtime_factor;
+  json["response_time_ms"] = figures(summary.response_s, kMillisecondsPerSecond,
+                                     {{"mean", &result::Statistics::mean},
+                                      {"p99", &result::Statistics::p99},
+                                      {"max", &result::Statistics::max}});
   json["trace_sha256"] = summary.trace_sha256;
   json["revision"] = summary.revision;
   json["host"] = {

@@ -211,6 +211,15 @@ std::size_t largest_sum(std::span<const StepRecord> rows,
   return largest;
 }
 
+std::optional<Statistics> response_s(std::span<const StepRecord> rows) {
+  std::vector<double> times_s;
+  for (const StepRecord& row : rows) {
+    if (row.record.response_ns == 0) continue;
+    times_s.push_back(static_cast<double>(row.record.response_ns) * kSecondsPerNanosecond);
+  }
+  return statistics(times_s);
+}
+
 }  // namespace
 
 RunSummary summarize(const RunDescription& description, const RunFacts& facts,
@@ -232,6 +241,7 @@ RunSummary summarize(const RunDescription& description, const RunFacts& facts,
   }
   summary.wall_s = facts.wall_s;
   summary.realtime_factor = facts.wall_s > 0.0 ? facts.clock_s / facts.wall_s : 0.0;
+  summary.response_s = response_s(rows);
   summary.trace_sha256 = trace_sha256(rows);
   return summary;
 }

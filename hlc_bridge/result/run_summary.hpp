@@ -59,6 +59,9 @@ struct RunSummary {
   std::size_t collisions{};
   double wall_s{};
   double realtime_factor{};  ///< time of the run / wall_s
+  /// From the list's t_now until the command (ReportRecord::response_ns), over all vehicles and
+  /// steps; none in logical time.
+  std::optional<Statistics> response_s;
   std::string trace_sha256;
   std::string revision;
   Host host;

@@ -132,6 +132,13 @@ std::string summary_table(const RunSummary& summary) {
         100.0 * budget_share);
   }
   text += waiting_lines(summary);
+  if (summary.response_s) {
+    text += fmt::format(
+        "  from state list to command                   mean {:.1f}, p99 {:.1f}, max {:.1f} ms\n",
+        summary.response_s->mean * kMillisecondsPerSecond,
+        summary.response_s->p99 * kMillisecondsPerSecond,
+        summary.response_s->max * kMillisecondsPerSecond);
+  }
   text += fmt::format(
       "  wall time, real-time factor                  {:.2f} s, {:.1f}\n"
       "  planned and driven poses, SHA-256  {}\n"

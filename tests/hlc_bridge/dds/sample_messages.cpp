@@ -152,8 +152,8 @@ void put_message(std::ostream& out, const coordination::Report& value) {
   put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
 }
 void put_message(std::ostream& out, const ReportRecord& value) {
-  const auto& [a, b, c, d] = value;
-  put_all(out, a, b, c, d);
+  const auto& [a, b, c, d, e] = value;
+  put_all(out, a, b, c, d, e);
 }
 void put_message(std::ostream& out, const RunState& value) {
   put_all(out, value.phase, value.start);

@@ -173,6 +173,7 @@ TEST_F(HlcMachineStep, AfterTheCommandsDeadlineThePlanInForceStaysAndTheMissIsCo
   ASSERT_THAT(records, SizeIs(1));
   EXPECT_TRUE(records[0].deadline_missed);
   EXPECT_NEAR(static_cast<double>(records[0].late_ns), 10e6, 1e3);
+  EXPECT_NEAR(static_cast<double>(records[0].response_ns), 190e6, 1e3);
   EXPECT_EQ(records[0].report.reason, coordination::FallbackReason::kLate);
   EXPECT_THAT(one.take<TrajectoryCommand>(), SizeIs(2)) << "of the plan in force";
 }

@@ -53,6 +53,7 @@ ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uin
   record.planning_ns = random();
   record.deadline_missed = random() % 2 == 0;
   record.late_ns = random();
+  record.response_ns = random();
   return record;
 }
 
@@ -78,6 +79,7 @@ void expect_equal(const ReportRecord& a, const ReportRecord& b) {
   EXPECT_EQ(a.planning_ns, b.planning_ns);
   EXPECT_EQ(a.deadline_missed, b.deadline_missed);
   EXPECT_EQ(a.late_ns, b.late_ns);
+  EXPECT_EQ(a.response_ns, b.response_ns);
 }
 
 TEST(ReportFile, ReadsBackEveryFieldAndSortsAtTheEnd) {

@@ -35,6 +35,7 @@ result::StepRecord row() {
   row.record.planning_ns = 1'500'000;
   row.record.deadline_missed = true;
   row.record.late_ns = 250'000;
+  row.record.response_ns = 31'500'000;
   row.driven = Pose{1.5, 2.25, -0.25};
   return row;
 }
@@ -95,7 +96,7 @@ TEST(StepFiles, NamesOfAnyKindReadBack) {
 
 TEST(StepFiles, TimingHoldsTheClock) {
   const std::vector<result::StepRecord> rows{row()};
-  EXPECT_EQ(timing_csv(rows), "step,id,planning_ms,deadline_missed,late_ms\n3,2,1.5,1,0.25\n");
+  EXPECT_EQ(timing_csv(rows), "step,id,planning_ms,deadline_missed,late_ms,response_ms\n3,2,1.5,1,0.25,31.5\n");
 }
 
 }  // namespace

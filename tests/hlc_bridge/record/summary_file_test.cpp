@@ -43,7 +43,7 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
   EXPECT_THAT(keys(json),
               ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps",
                           "step_s", "steps", "vehicles", "generated_vertices_sum_max",
-                          "min_footprint_distance_m", "collisions", "wall_s", "realtime_factor",
+                          "min_footprint_distance_m", "collisions", "wall_s", "realtime_factor", "response_time_ms",
                           "trace_sha256", "revision", "host", "engine", "expanded_vertices_sum_max",
                           "policy", "longest_wait_s", "stuck_vehicles"));
   const auto& vehicle = json["vehicles"][0];

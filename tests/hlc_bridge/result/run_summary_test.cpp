@@ -105,6 +105,17 @@ TEST_F(RunSummaryTest, ErrorsAndLapAreThoseOfTheMotion) {
   EXPECT_EQ(result.trace_sha256.size(), 64U);
 }
 
+TEST_F(RunSummaryTest, ResponseTimesAreThoseOfAllVehiclesInRealTime) {
+  EXPECT_FALSE(summary().response_s) << "the clock of a run in logical time stands";
+  for (ReportRecord& one : reports_) one.response_ns = 2'000'000U * one.report.vehicle.value;
+  report(2, 30).response_ns = 50'000'000;
+  const std::optional<Statistics> response_s = summary().response_s;
+  ASSERT_TRUE(response_s);
+  EXPECT_EQ(response_s->count, 120U);
+  EXPECT_NEAR(response_s->p99, 4e-3, 1e-12);
+  EXPECT_NEAR(response_s->max, 50e-3, 1e-12);
+}
+
 TEST_F(RunSummaryTest, ErrorOfDrivenPositionsIsThatOfTheDrive) {
   for (DrivenSample& sample : drives_[1]) {
     sample.pose.x_m *= 1.02;  // circles about the origin
