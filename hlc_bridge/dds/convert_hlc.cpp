@@ -255,13 +255,14 @@ Incoming<coordination::Prediction> from_wire(const PredictionMessage& wire) {
 
 void to_wire(const coordination::Outcome& message, OutcomeMessage& wire) {
   const auto& [vehicle, step, wants_fallback, digests] = message;
-  const auto& [inputs, plan] = digests.value_or(coordination::PlanDigests{});
+  const auto& [inputs, plan, is_prediction_published] = digests.value_or(coordination::PlanDigests{});
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.wants_fallback(wants_fallback);
   wire.has_digests(digests.has_value());
   wire.inputs_digest(inputs);
   wire.plan_digest(plan);
+  wire.prediction_is_published(is_prediction_published);
 }
 
 Incoming<coordination::Outcome> from_wire(const OutcomeMessage& wire) {
@@ -272,7 +273,7 @@ Incoming<coordination::Outcome> from_wire(const OutcomeMessage& wire) {
                             .wants_fallback = wire.wants_fallback(),
                             .digests = wire.has_digests() ? std::optional{coordination::PlanDigests{
                                                                 .inputs = wire.inputs_digest(),
-                                                                .plan = wire.plan_digest()}}
+                                                                .plan = wire.plan_digest(), .is_prediction_published = wire.prediction_is_published()}}
                                                           : std::nullopt});
 }
 

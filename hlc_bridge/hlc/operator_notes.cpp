@@ -67,7 +67,7 @@ void OperatorNotes::note_rounds(const controller::TwoRounds& rounds, HlcActions&
     actions.warn(fmt::format(
         "{} late steps within {}: planning for all that matter takes too long on this machine; "
         "planning one after the other from now on",
-        controller::TwoRounds::kMostLateSteps, controller::TwoRounds::kLateWindow));
+        controller::TwoRounds::kMostLateSteps, controller::TwoRounds::kWindow));
   }
 }
 

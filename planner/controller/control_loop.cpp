@@ -27,7 +27,9 @@ StepOutput ControlLoop::begin(const Observation& observation) {
   planning_ns_ = 0;
   phase_ = StepPhase::kTraffic;
   StepOutput output{.traffic = controller_->observe(observation)};
-  if (!two_rounds_ || !two_rounds_->shares()) output.traffic->planning.reset();
+  if (!two_rounds_ || !two_rounds_->offers(*controller_, *output.traffic)) {
+    output.traffic->planning.reset();
+  }
   return output;
 }
 
@@ -83,7 +85,7 @@ Awaited ControlLoop::missing_of(MessageKind kind, const std::vector<VehicleId>& 
   return awaited;
 }
 
-/// Who has sent an outcome with digests sends no prediction, or has sent it.
+/// Who has sent an outcome with digests sends a prediction only if this says so.
 Awaited ControlLoop::missing_plans_of(MessageKind kind, const std::vector<VehicleId>& from) const {
   Awaited awaited = missing_of<coordination::Prediction>(kind, from);
   const auto& outcomes = std::get<Received<coordination::Outcome>>(received_);
@@ -91,7 +93,7 @@ Awaited ControlLoop::missing_plans_of(MessageKind kind, const std::vector<Vehicl
   if (of_step == outcomes.end()) return awaited;
   std::erase_if(awaited.from, [&](VehicleId vehicle) {
     const auto outcome = of_step->second.find(vehicle, step_);
-    return outcome != nullptr && outcome->digests;
+    return outcome != nullptr && outcome->digests && !outcome->digests->is_prediction_published;
   });
   return awaited;
 }
@@ -144,7 +146,7 @@ void ControlLoop::couple(SharedStep* shared) {
   controller_->couple(received<coordination::Traffic>(), shared != nullptr ? *shared : alone);
   if (!two_rounds_) return;
   const std::uint64_t from_ns = stopwatch_();
-  static_cast<void>(two_rounds_->begin(*controller_));
+  two_rounds_->choose(*controller_);
   planning_ns_ = stopwatch_() - from_ns;
 }
 
@@ -154,7 +156,9 @@ StepOutput ControlLoop::plan() {
   const std::uint64_t from_ns = stopwatch_();
   if (is_in_two_rounds()) {
     output.outcome = two_rounds_->plan(*controller_);
-    if (!controller_->missing().empty()) output.prediction = controller_->prediction();
+    if (output.outcome->digests->is_prediction_published) {
+      output.prediction = controller_->prediction();
+    }
   } else {
     output.prediction = controller_->plan(predictions);
   }
@@ -173,10 +177,9 @@ StepOutput ControlLoop::commit() {
 
 StepOutput ControlLoop::fall_back(coordination::FallbackReason reason) {
   HLC_DEMAND(is_in_step());
+  const bool has_planned = phase_ == StepPhase::kCommit;
   phase_ = StepPhase::kIdle;
-  if (reason == coordination::FallbackReason::kLate && is_in_two_rounds()) {
-    two_rounds_->note_late(step_);
-  }
+  if (is_in_two_rounds() && has_planned) two_rounds_->end_late(*controller_);
   return {.report = controller_->fall_back(reason)};
 }
 

@@ -117,7 +117,7 @@ class ControlLoop {
   [[nodiscard]] Awaited missing_plans_of(MessageKind kind,
                                          const std::vector<VehicleId>& from) const;
   [[nodiscard]] bool needs_votes() const;
-  [[nodiscard]] bool is_in_two_rounds() const { return two_rounds_ && two_rounds_->is_begun(); }
+  [[nodiscard]] bool is_in_two_rounds() const { return two_rounds_ && two_rounds_->is_chosen(); }
   void couple(SharedStep* shared);
   [[nodiscard]] StepOutput commit();
   [[nodiscard]] StepOutput plan();

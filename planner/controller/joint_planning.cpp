@@ -13,12 +13,24 @@ std::vector<VehicleId> JointPlanning::prepare(const Controller& own) {
   return not_shared;
 }
 
+bool JointPlanning::can_be_planned_for(const Controller& own,
+                                       const coordination::Traffic& traffic) {
+  if (!traffic.planning || !is_well_formed(*traffic.planning, traffic.step)) return false;
+  const Controller* replica = replica_of(own.options().vehicle);
+  return replica != nullptr && replica->planning_basis() == traffic.planning->basis;
+}
+
+Controller* JointPlanning::replica_of(VehicleId vehicle) {
+  std::unique_ptr<Controller>& replica = replicas_[vehicle];
+  if (!replica) replica = others_(vehicle);
+  return replica.get();
+}
+
 bool JointPlanning::can_plan(VehicleId vehicle, const Controller& own) {
   const coordination::Traffic& traffic = own.traffic_of(vehicle);
   if (!traffic.planning) return false;
   if (vehicle == own.options().vehicle) return true;
-  std::unique_ptr<Controller>& replica = replicas_[vehicle];
-  if (!replica) replica = others_(vehicle);
+  Controller* replica = replica_of(vehicle);
   return replica != nullptr && replica->resume(traffic, own);
 }
 

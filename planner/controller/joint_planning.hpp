@@ -19,10 +19,17 @@ namespace hlc::controller {
 ///
 /// What is computed for another vehicle is a guess: this controller may have received other traffic
 /// than that one. The owner of this object must not rely on it before the other one has confirmed
-/// it (ControlLoop).
+/// it (TwoRounds).
+///
+/// Each search has the whole budget of its vehicle (SearchOptions::max_expansions), so a step of n
+/// vehicles that matter takes up to n times as long as one of the own vehicle.
 class JointPlanning {
  public:
   explicit JointPlanning(ControllerFactory others) : others_(std::move(others)) {}
+
+  /// Whether those who make controllers as this one does can plan for the own vehicle from this
+  /// traffic of it. Not if its subgraph has been changed, or while it is not seen.
+  [[nodiscard]] bool can_be_planned_for(const Controller& own, const coordination::Traffic& traffic);
 
   /// The vehicles of the component that cannot be planned for: those that have not published a
   /// planning input, or one on another basis than this controller knows of them. The same in all
@@ -34,6 +41,8 @@ class JointPlanning {
   [[nodiscard]] coordination::ReceivedMessages<coordination::Prediction> plan(Controller& own);
 
  private:
+  /// May be none.
+  [[nodiscard]] Controller* replica_of(VehicleId vehicle);
   [[nodiscard]] bool can_plan(VehicleId vehicle, const Controller& own);
   [[nodiscard]] std::vector<VehicleId> vehicles_that_matter(const Controller& own) const;
 

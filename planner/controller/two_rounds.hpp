@@ -25,34 +25,39 @@ namespace hlc::controller {
 ///
 /// **Who cannot share.** The way is chosen by the component, from its traffic: two rounds if all of
 /// its vehicles can be planned for, otherwise the sequential way. Without loss all its members
-/// choose the same. Where one has received other traffic than another, either takes the other's
-/// message for what it is: a prediction instead of an outcome counts, with the areas in it; an
-/// outcome instead of a prediction counts as not received. A vehicle that misses another one knows
-/// that nobody can compute its plan, and publishes its prediction, too.
+/// choose the same, unless they know a vehicle by different scenarios. Where they do not, either
+/// takes the other's message for what it is: a prediction instead of an outcome counts, with the
+/// areas in it; an outcome instead of a prediction counts as not received. So whoever finds that
+/// a coupled vehicle has not computed the same publishes its prediction, too, in the next step, as
+/// does a vehicle that misses another one: it knows that nobody can compute its plan.
 ///
-/// A controller whose digests differ from another's for a horizon although both had the same inputs
-/// computes other bits (another mathematical library): it shares no more (`differs_from`). Neither
-/// does one that is late too often, since planning for all takes as many times longer as there are
-/// vehicles that matter (`is_too_slow`); all of its component plan one after the other then, which
-/// needs more messages, and less of each processor.
+/// A controller whose digests differ from another's in a horizon of steps within kWindow although
+/// both had the same inputs computes other plans (another mathematical library): it shares no more
+/// (`differs_from`). Neither does one that is late too often, since planning for all takes as many
+/// times longer as there are vehicles that matter (`is_too_slow`); all of its component plan one
+/// after the other then, which needs more messages, and less of each processor. Both last as long
+/// as the controller runs.
 class TwoRounds {
  public:
   explicit TwoRounds(ControllerFactory others) : joint_(std::move(others)) {}
 
-  /// The vehicle whose plans differ although the inputs agree; from then on `begin` returns false.
+  /// The vehicle whose plans differ although the inputs agree; from then on no step has two rounds.
   [[nodiscard]] std::optional<VehicleId> differs_from() const { return differs_from_; }
-  /// It was late in kMostLateSteps steps with two rounds within kLateWindow; from then on `begin`
-  /// returns false.
+  /// It was late in kMostLateSteps steps with two rounds within kWindow; from then on no step has
+  /// two rounds.
   [[nodiscard]] bool is_too_slow() const { return is_too_slow_; }
   [[nodiscard]] bool shares() const { return !differs_from_ && !is_too_slow_; }
   /// Vehicles of the component that could not be planned for in this step.
   [[nodiscard]] std::span<const VehicleId> not_shared() const { return not_shared_; }
 
-  /// Whether this step has two rounds. @param own  after `couple`
-  [[nodiscard]] bool begin(const Controller& own);
-  [[nodiscard]] bool is_begun() const { return is_begun_; }
+  /// Begins a step. Whether the own traffic is to hold its planning input.
+  [[nodiscard]] bool offers(const Controller& own, const coordination::Traffic& traffic);
 
-  /// Plans for all that matter, the own vehicle included. @pre is_begun
+  /// Chooses whether this step has two rounds. @param own  after `couple`
+  void choose(const Controller& own);
+  [[nodiscard]] bool is_chosen() const { return is_chosen_; }
+
+  /// Plans for all that matter, the own vehicle included. @pre is_chosen
   [[nodiscard]] coordination::Outcome plan(Controller& own);
 
   /// The new plans of coupled vehicles that are known now: computed and confirmed, or received.
@@ -61,25 +66,37 @@ class TwoRounds {
   [[nodiscard]] coordination::ReceivedMessages<coordination::Prediction> known_plans(
       Controller& own, const coordination::ReceivedMessages<coordination::Prediction>& predictions,
       const coordination::ReceivedMessages<coordination::Outcome>& outcomes);
-
-  /// The step with two rounds did not end in time.
-  void note_late(StepIndex step);
+  /// Instead of known_plans: the step did not end in time. To be followed by `own.fall_back`.
+  void end_late(Controller& own);
 
   static constexpr std::size_t kMostLateSteps = 3;
-  static constexpr std::uint64_t kLateWindow = 50;  ///< control steps
+  static constexpr std::uint64_t kWindow = 50;  ///< control steps
 
  private:
+  /// Steps within kWindow of the last one.
+  class RecentSteps {
+   public:
+    void add(StepIndex step);
+    [[nodiscard]] std::size_t count() const { return steps_.size(); }
+
+   private:
+    std::vector<StepIndex> steps_;
+  };
+
   void compare(VehicleId vehicle, bool is_same, const coordination::PlanDigests& received,
                const Controller& own);
 
   JointPlanning joint_;
-  bool is_begun_{};
+  bool is_offered_{};
+  bool is_chosen_{};
   std::vector<VehicleId> not_shared_;
   coordination::ReceivedMessages<coordination::Prediction> computed_;
   std::uint64_t inputs_{};  ///< digest
-  std::map<VehicleId, std::size_t> differing_steps_;
+  /// In the last step with two rounds a coupled vehicle had not computed the same.
+  bool is_prediction_needed_{};
+  std::map<VehicleId, RecentSteps> differing_steps_;
   std::optional<VehicleId> differs_from_;
-  std::vector<StepIndex> late_;  ///< within kLateWindow of the last one
+  RecentSteps late_steps_;
   bool is_too_slow_{};
 };
 

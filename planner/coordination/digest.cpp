@@ -1,97 +1,133 @@
 #include "planner/coordination/digest.hpp"
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "planner/common/word_hash.hpp"
 
+// The structured bindings name every field, so that a new one does not compile until it is in the
+// digest: safety rests on equal digests for equal predictions only (controller/two_rounds.hpp).
 namespace hlc::coordination {
 namespace {
 
-void add_number(WordHash& hash, std::uint64_t number) { hash.add(number); }
+template <class Value>
+void add(WordHash& hash, const std::vector<Value>& values);
+template <class Value>
+void add(WordHash& hash, const std::optional<Value>& value);
 
-void add_pose(WordHash& hash, const Pose& pose) {
-  hash.add(pose.x_m);
-  hash.add(pose.y_m);
-  hash.add(pose.heading_rad);
+void add(WordHash& hash, std::uint64_t number) { hash.add(number); }
+void add(WordHash& hash, std::uint32_t number) { hash.add(std::uint64_t{number}); }
+void add(WordHash& hash, bool yes) { hash.add(std::uint64_t{yes}); }
+void add(WordHash& hash, double number) { hash.add(number); }
+void add(WordHash& hash, const VehicleId& vehicle) { hash.add(std::uint64_t{vehicle.value}); }
+void add(WordHash& hash, const StepIndex& step) { hash.add(step.value); }
+
+void add(WordHash& hash, const Point& point) {
+  hash.add(point.x());
+  hash.add(point.y());
 }
 
-void add_area(WordHash& hash, const ConvexPolygon& area) {
-  add_number(hash, area.vertices_m.size());
-  for (const Point& vertex : area.vertices_m) {
-    hash.add(vertex.x());
-    hash.add(vertex.y());
-  }
+void add(WordHash& hash, const Pose& pose) {
+  const auto& [x_m, y_m, heading_rad] = pose;
+  for (const double value : {x_m, y_m, heading_rad}) hash.add(value);
 }
 
-void add_areas(WordHash& hash, const OccupiedAreas& areas) {
-  hash.add(areas.first.value);
-  add_number(hash, areas.areas_m.size());
-  for (const ConvexPolygon& area : areas.areas_m) add_area(hash, area);
-  add_area(hash, areas.final_area_m);
+void add(WordHash& hash, const ConvexPolygon& area) {
+  const auto& [vertices_m] = area;
+  hash.add(std::uint64_t{vertices_m.size()});
+  for (const Point& vertex : vertices_m) add(hash, vertex);
 }
 
-void add_claim(WordHash& hash, const LaneClaim& claim) {
-  add_number(hash, claim.route);
-  hash.add(claim.place_m);
-  hash.add(claim.ahead_m);
-  add_number(hash, claim.waiting_steps);
+void add(WordHash& hash, const OccupiedAreas& areas) {
+  const auto& [first, areas_m, final_area_m] = areas;
+  add(hash, first);
+  add(hash, areas_m);
+  add(hash, final_area_m);
 }
 
-void add_drivable_area(WordHash& hash, const DrivableAreaState& area) {
-  add_number(hash, area.is_possible);
-  add_number(hash, area.is_certain);
-  add_number(hash, area.is_departing);
-  add_number(hash, area.stands_since.has_value());
-  hash.add(area.stands_since.value_or(StepIndex{}).value);
-  add_number(hash, area.entry.has_value());
-  const DrivableAreaState::Widened entry = area.entry.value_or(DrivableAreaState::Widened{});
-  for (const double value : {entry.from_s_m, entry.to_s_m, entry.left_m, entry.right_m}) {
-    hash.add(value);
-  }
+void add(WordHash& hash, const LaneClaim& claim) {
+  const auto& [route, place_m, ahead_m, waiting_steps] = claim;
+  add(hash, route);
+  add(hash, place_m);
+  add(hash, ahead_m);
+  add(hash, waiting_steps);
 }
 
-void add_planning_input(WordHash& hash, const PlanningInput& input) {
-  hash.add(input.basis);
-  add_number(hash, input.may_plan);
-  hash.add(input.base.first.value);
-  for (const Pose& pose : input.base.poses) add_pose(hash, pose);
-  for (const std::uint32_t maneuver : input.base.maneuvers) add_number(hash, maneuver);
-  add_number(hash, input.base.standstill);
-  add_number(hash, input.is_moved);
-  hash.add(input.seen_step.value);
-  hash.add(input.seen_time_s);
-  add_pose(hash, input.seen_pose);
-  hash.add(input.deviation_m);
-  add_number(hash, input.route);
-  hash.add(input.path_s_m);
-  add_drivable_area(hash, input.area);
+void add(WordHash& hash, const DrivableAreaState::Widened& widened) {
+  const auto& [from_s_m, to_s_m, left_m, right_m] = widened;
+  for (const double value : {from_s_m, to_s_m, left_m, right_m}) hash.add(value);
+}
+
+void add(WordHash& hash, const DrivableAreaState& area) {
+  const auto& [entry, is_possible, is_certain, is_departing, stands_since] = area;
+  add(hash, entry);
+  for (const bool yes : {is_possible, is_certain, is_departing}) add(hash, yes);
+  add(hash, stands_since);
+}
+
+void add(WordHash& hash, const PlanByIndex& plan) {
+  const auto& [first, poses, maneuvers, standstill] = plan;
+  add(hash, first);
+  add(hash, poses);
+  add(hash, maneuvers);
+  add(hash, standstill);
+}
+
+void add(WordHash& hash, const PlanningInput& input) {
+  const auto& [basis, may_plan, base, is_moved, seen_step, seen_time_s, seen_pose, deviation_m,
+               route, path_s_m, area] = input;
+  add(hash, basis);
+  add(hash, may_plan);
+  add(hash, base);
+  add(hash, is_moved);
+  add(hash, seen_step);
+  add(hash, seen_time_s);
+  add(hash, seen_pose);
+  add(hash, deviation_m);
+  add(hash, route);
+  add(hash, path_s_m);
+  add(hash, area);
+}
+
+template <class Value>
+void add(WordHash& hash, const std::vector<Value>& values) {
+  hash.add(std::uint64_t{values.size()});
+  for (const Value& value : values) add(hash, value);
+}
+
+template <class Value>
+void add(WordHash& hash, const std::optional<Value>& value) {
+  add(hash, value.has_value());
+  if (value) add(hash, *value);
 }
 
 }  // namespace
 
 std::uint64_t digest_of(const Traffic& traffic) {
+  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent, claim,
+               planning] = traffic;
   WordHash hash;
-  add_number(hash, traffic.vehicle.value);
-  hash.add(traffic.step.value);
-  add_pose(hash, traffic.next_pose);
-  add_number(hash, traffic.next_trim.index);
-  add_areas(hash, traffic.running);
-  add_area(hash, traffic.reachable_area_m);
-  add_number(hash, traffic.silent.size());
-  for (const VehicleId vehicle : traffic.silent) add_number(hash, vehicle.value);
-  add_number(hash, traffic.claim.has_value());
-  if (traffic.claim) add_claim(hash, *traffic.claim);
-  add_number(hash, traffic.planning.has_value());
-  if (traffic.planning) add_planning_input(hash, *traffic.planning);
+  add(hash, vehicle);
+  add(hash, step);
+  add(hash, next_pose);
+  add(hash, std::uint64_t{next_trim.index});
+  add(hash, running);
+  add(hash, reachable_area_m);
+  add(hash, silent);
+  add(hash, claim);
+  add(hash, planning);
   return hash.value();
 }
 
 std::uint64_t digest_of(const Prediction& prediction) {
+  const auto& [vehicle, step, is_new, areas, desired] = prediction;
   WordHash hash;
-  add_number(hash, prediction.vehicle.value);
-  hash.add(prediction.step.value);
-  add_number(hash, prediction.is_new);
-  add_areas(hash, prediction.areas);
-  add_number(hash, prediction.desired.has_value());
-  if (prediction.desired) add_areas(hash, *prediction.desired);
+  add(hash, vehicle);
+  add(hash, step);
+  add(hash, is_new);
+  add(hash, areas);
+  add(hash, desired);
   return hash.value();
 }
 

@@ -8,6 +8,9 @@
 namespace hlc::coordination {
 namespace {
 
+/// Vehicles are seen within a step.
+constexpr double kLongestStep_s = 10.0;
+
 /// Longer plans than that are no plans of a controller.
 constexpr std::size_t kMostPoses = 256;
 
@@ -33,7 +36,7 @@ bool is_sane(const DrivableAreaState::Widened& widened) {
 }
 
 bool is_sane(const PlanByIndex& plan, StepIndex step) {
-  return plan.first.value <= step.value + 1 && plan.poses.size() == plan.maneuvers.size() + 1 &&
+  return plan.first.value + 1 >= step.value && plan.first <= step && plan.poses.size() == plan.maneuvers.size() + 1 &&
          plan.poses.size() <= kMostPoses &&
          std::ranges::all_of(plan.poses, [](const Pose& pose) { return is_sane(pose); });
 }
@@ -42,7 +45,7 @@ bool is_sane(const PlanByIndex& plan, StepIndex step) {
 
 bool is_well_formed(const PlanningInput& input, StepIndex step) {
   return is_sane(input.base, step) && input.seen_step >= input.base.first &&
-         input.seen_step.value <= step.value + 1 && is_within(input.seen_time_s, 0.0, 1e3) &&
+         input.seen_step <= step && is_within(input.seen_time_s, 0.0, kLongestStep_s) &&
          is_sane(input.seen_pose) && is_within(input.deviation_m, 0.0, kLargestCoordinate_m) &&
          is_within(input.path_s_m, 0.0, kLargestCoordinate_m) &&
          (!input.area.entry || is_sane(*input.area.entry)) &&

@@ -61,8 +61,9 @@ struct PlanningInput {
   friend bool operator==(const PlanningInput&, const PlanningInput&) = default;
 };
 
-/// False if a number is none or too large, or numbers do not fit each other; whether the indices
-/// exist only the receiver knows.
+/// False if a number is none or too large, or numbers do not fit each other: the base begins at
+/// t(k - 1) or t(k), and the vehicle was seen between then and t(k + 1). Whether the indices exist
+/// only the receiver knows.
 /// @param step  k
 [[nodiscard]] bool is_well_formed(const PlanningInput& input, StepIndex step);
 

@@ -106,6 +106,15 @@ void check_zones(const Node& node, const Scenario& scenario) {
   }
 }
 
+/// Votes need a round of their own. Profile 2022 has such a rule; it plans sequentially then.
+controller::Rounds rounds_of(const ScenarioValues& values, const Profile& profile) {
+  if (!profile.strategies.coordination.commit.needs_votes) return values.rounds;
+  if (values.coordination && values.rounds == controller::Rounds::kTwo) {
+    values.node.fail("rounds", "sequential with coordination: agreed");
+  }
+  return controller::Rounds::kSequential;
+}
+
 }  // namespace
 
 Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
@@ -125,7 +134,7 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   if (values.coordination) {
     scenario.profile.strategies.coordination = coordination_rules().at(*values.coordination);
   }
-  scenario.rounds = values.rounds;
+  scenario.rounds = rounds_of(values, scenario.profile);
   scenario.search = choose_search(values, choices, scenario.profile);
   scenario.is_reconfigurable = values.is_reconfigurable;
   scenario.subgraph = inputs.subgraph;

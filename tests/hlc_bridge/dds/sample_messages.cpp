@@ -141,8 +141,8 @@ void put_message(std::ostream& out, const coordination::Prediction& value) {
 }
 void put_message(std::ostream& out, const coordination::Outcome& value) {
   const auto& [a, b, c, d] = value;
-  const auto& [inputs, plan] = d.value_or(coordination::PlanDigests{});
-  put_all(out, a, b, c, d.has_value(), inputs, plan);
+  const auto& [inputs, plan, published] = d.value_or(coordination::PlanDigests{});
+  put_all(out, a, b, c, d.has_value(), inputs, plan, published);
 }
 void put_message(std::ostream& out, const coordination::Waiting& value) {
   put_all(out, value.vehicles, value.since);
@@ -481,7 +481,7 @@ coordination::Prediction sample(Random& random) {
 template <>
 coordination::Outcome sample(Random& random) {
   coordination::Outcome outcome{vehicle(random), {random()}, coin(random)};
-  if (coin(random)) outcome.digests = {.inputs = random(), .plan = random()};
+  if (coin(random)) outcome.digests = {.inputs = random(), .plan = random(), .is_prediction_published = coin(random)};
   return outcome;
 }
 

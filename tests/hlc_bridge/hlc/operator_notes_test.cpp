@@ -92,7 +92,7 @@ class NotesOfRounds : public testing::Test {
   controller::Controller one_{
       controller::ControllerOptions{
           .vehicle = {1},
-          .others = [](VehicleId) { return std::unique_ptr<controller::Controller>(); }},
+          .others = [](VehicleId id) { return controller::east_bound::controller(id.value); }},
       controller::east_bound::subgraph(),
       road::ReferencePath({Point(0.0, 0.0), Point(10.0, 0.0)}, false), road::Corridor{}};
   controller::ControlLoop loop_{one_, {}, controller::Rounds::kTwo};
@@ -109,11 +109,13 @@ TEST_F(NotesOfRounds, LogOnceForWhomVehiclesPlanOneAfterTheOther) {
 }
 
 TEST(OperatorNotes, LogOnceThatPlanningForAllTakesTooLong) {
+  const auto one = controller::east_bound::controller(1);
   controller::TwoRounds rounds({});
   OperatorNotes notes;
   HlcActions actions;
   for (std::uint64_t k = 100; k < 110; ++k) {
-    rounds.note_late({k});
+    static_cast<void>(one->stand_by(at(k, {seen(1, 0.0, 0.0)})));
+    rounds.end_late(*one);
     notes.note_rounds(rounds, actions);
   }
   EXPECT_THAT(lines_of(actions),

@@ -228,7 +228,7 @@ TEST_F(TwoRoundsTest, ThatAreLateTooOftenShareNoMore) {
   stand();
   for (std::size_t i = 0; i < TwoRounds::kMostLateSteps; ++i) {
     EXPECT_TRUE(first_->two_rounds()->shares()) << i;
-    drive(TwoRounds::kLateWindow / 2 - 1, Ends::kTooLate);
+    drive(TwoRounds::kWindow / 2 - 1, Ends::kTooLate);
   }
   EXPECT_TRUE(first_->two_rounds()->is_too_slow());
   EXPECT_TRUE(second_->two_rounds()->shares()) << "it was in time";
@@ -240,7 +240,7 @@ TEST_F(TwoRoundsTest, ThatAreLateTooOftenShareNoMore) {
 TEST_F(TwoRoundsTest, ThatAreLateNowAndThenGoOnSharing) {
   stand();
   for (std::size_t i = 0; i < 2 * TwoRounds::kMostLateSteps; ++i) {
-    drive(TwoRounds::kLateWindow / 2, Ends::kTooLate);
+    drive(TwoRounds::kWindow / 2, Ends::kTooLate);
   }
   EXPECT_TRUE(first_->two_rounds()->shares());
 }

@@ -81,6 +81,16 @@ TEST_F(ScenarioErrors, AContouringWeightIsNotNegative) {
               HasSubstr(".yaml:7: contouring_weight = -1, must be a number >= 0 and <= 10000"));
 }
 
+TEST_F(ScenarioErrors, TwoRoundsLeaveNoRoundForVotes) {
+  EXPECT_EQ(error_of("horizon_steps: 8", "rounds: two"), "");
+  EXPECT_EQ(error_of("horizon_steps: 8", "rounds: sequential"), "");
+  EXPECT_THAT(error_of("horizon_steps: 8", "rounds: three"),
+              HasSubstr(".yaml:7: rounds = three, must be one of sequential, two"));
+  EXPECT_EQ(error_of("horizon_steps: 8", "rounds: sequential\ncoordination: agreed"), "");
+  EXPECT_THAT(error_of("horizon_steps: 8", "rounds: two\ncoordination: agreed"),
+              HasSubstr(".yaml:7: rounds = two, must be sequential with coordination: agreed"));
+}
+
 TEST_F(ScenarioErrors, RightOfWayIsOfClosedRoutesOnly) {
   const std::pair<std::string, std::string> open_route{"closed: true", "closed: false"};
   EXPECT_EQ(error_of("horizon_steps: 8", "right_of_way: true"), "");
