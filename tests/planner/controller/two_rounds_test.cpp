@@ -33,8 +33,12 @@ class TwoRoundsTest : public testing::Test {
     const ControllerFactory others = [strategies](VehicleId id) {
       return car(id.value, strategies, {});
     };
-    one_ = car(1, strategies, others);
-    two_ = car(2, strategies, others);
+    stand(car(1, strategies, others), car(2, strategies, others));
+  }
+
+  void stand(std::unique_ptr<Controller> one, std::unique_ptr<Controller> two) {
+    one_ = std::move(one);
+    two_ = std::move(two);
     first_.emplace(*one_);
     second_.emplace(*two_);
     static_cast<void>(first_->stand_by(at(100, states_)));
@@ -61,6 +65,7 @@ class TwoRoundsTest : public testing::Test {
       plan(next_);
       if (from_second_.outcome) first_->receive(*from_second_.outcome);
       if (from_first_.outcome) second_->receive(*from_first_.outcome);
+      if (from_second_.prediction) first_->receive(*from_second_.prediction);
       if (last == Ends::kTooLate && i + 1 == steps) {
         static_cast<void>(first_->fall_back(coordination::FallbackReason::kLate));
       } else {
@@ -185,6 +190,47 @@ TEST_F(TwoRoundsTest, PublishTheirPredictionTooIfTheyMissAVehicle) {
   EXPECT_TRUE(from_first_.outcome && from_first_.outcome->digests);
   ASSERT_TRUE(from_first_.prediction);
   EXPECT_EQ(digest_of(*from_first_.prediction), from_first_.outcome->digests->plan);
+}
+
+/// Of cars 1 that plan by another rule, and of usual cars 2.
+std::unique_ptr<Controller> other_car_1(VehicleId id) {
+  return car(id.value,
+             id.value == 1 ? ControllerStrategies{.incumbent = &no_incumbent} : ControllerStrategies{},
+             {});
+}
+std::unique_ptr<Controller> usual_car(VehicleId id) { return car(id.value, {}, {}); }
+
+// As after a change of its subgraph: it can plan for car 2, and car 2 cannot for it.
+TEST_F(TwoRoundsTest, PlanOneAfterTheOtherIfTheOthersKnowOneOtherwise) {
+  stand(car(1, {}, &other_car_1), car(2, {}, &other_car_1));
+  plan();
+  EXPECT_FALSE(traffic_[0].planning);
+  EXPECT_TRUE(from_first_.prediction && !from_first_.outcome);
+  EXPECT_TRUE(from_second_.prediction && !from_second_.outcome);
+}
+
+// Car 1 takes two rounds, since it does not know that car 2 cannot plan for it.
+TEST_F(TwoRoundsTest, PublishTheirPredictionAfterAStepInWhichOneCouldNotComputeIt) {
+  stand(car(1, {}, &usual_car), car(2, {}, &other_car_1));
+  drive(1, Ends::kInTime);
+  EXPECT_TRUE(from_first_.outcome && !from_first_.prediction);
+  EXPECT_TRUE(from_second_.prediction && !from_second_.outcome);
+  const coordination::Traffic from_one = *first_->begin(at(next_, states_)).traffic;
+  const coordination::Traffic from_two = *second_->begin(at(next_, states_)).traffic;
+  first_->receive(from_two);
+  second_->receive(from_one);
+  static_cast<void>(first_->proceed());
+  static_cast<void>(second_->proceed());
+  const StepOutput planned = first_->proceed();
+  ASSERT_TRUE(planned.outcome && planned.prediction);
+  EXPECT_TRUE(planned.outcome->digests->is_prediction_published);
+  second_->receive(*planned.outcome);
+  EXPECT_THAT(second_->awaited().from, ElementsAre(VehicleId{1})) << "its prediction is to come";
+  second_->receive(*planned.prediction);
+  EXPECT_THAT(second_->awaited().from, IsEmpty());
+  first_->receive(*second_->proceed().prediction);
+  EXPECT_EQ(end(*first_).status, coordination::StepStatus::kPlanned);
+  EXPECT_EQ(end(*second_).status, coordination::StepStatus::kPlanned);
 }
 
 TEST_F(TwoRoundsTest, ThatComputeOtherBitsForAHorizonShareNoMore) {

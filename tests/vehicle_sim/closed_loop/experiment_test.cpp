@@ -68,6 +68,7 @@ struct RoundsCase {
   std::optional<std::size_t> cars;
   std::optional<std::uint64_t> noise_seed;
   std::uint64_t steps{};
+  double left_m{};  ///< of their lanes they start
 };
 
 void PrintTo(const RoundsCase& one, std::ostream* out) { *out << one.scenario; }
@@ -80,13 +81,22 @@ TEST_P(TwoRounds, DriveAsTheSequentialWayDoes) {
   scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/" + GetParam().scenario + ".yaml",
        .cars = GetParam().cars});
+  for (scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
+    vehicle.start.x_m -= GetParam().left_m * std::sin(vehicle.start.heading_rad);
+    vehicle.start.y_m += GetParam().left_m * std::cos(vehicle.start.heading_rad);
+  }
   ExperimentOptions options{.steps = GetParam().steps, .noise_seed = GetParam().noise_seed};
   const Experiment sequential = drive_experiment(scenario, options);
   scenario.rounds = controller::Rounds::kTwo;
   options.rules.is_lost = [](const controller::Delivery& delivery) {
     return delivery.kind == controller::MessageKind::kPrediction;
   };
+  std::size_t num_entering = 0;
+  options.rules.on_traffic = [&](const controller::Controller&, const coordination::Traffic& one) {
+    if (one.planning && one.planning->area.entry) ++num_entering;
+  };
   const Experiment two = drive_experiment(scenario, options);
+  EXPECT_EQ(num_entering > 0, GetParam().left_m > 0.0) << "vehicles that enter their lanes";
   ASSERT_EQ(two.reports.size(), sequential.reports.size());
   std::size_t num_coupled = 0;
   for (std::size_t i = 0; i < two.reports.size(); ++i) {
@@ -107,8 +117,11 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, TwoRounds,
                          testing::Values(RoundsCase{"paper_three_cars", {}, 5, 100},
                                          RoundsCase{"lab_three_cars", {}, 1, 100},
                                          RoundsCase{"lab_cars", 8, 1, 60},
-                                         RoundsCase{"circle", 6, {}, 60}),
-                         [](const auto& tested) { return tested.param.scenario; });
+                                         RoundsCase{"circle", 6, {}, 60},
+                                         RoundsCase{"paper_three_cars", {}, 2, 60, 0.09}),
+                         [](const auto& tested) {
+                           return tested.param.scenario + (tested.param.left_m > 0.0 ? "_beside" : "");
+                         });
 
 // Six cars on their way across a circle, and nobody makes room: 4, 5 and 6 get through, 1, 2 and 3
 // stand in each other's way forever.
