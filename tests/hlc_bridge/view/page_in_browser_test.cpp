@@ -1,0 +1,210 @@
+// The page of a run in a browser, opened from disk. Skipped on a machine without Chromium.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "hlc_bridge/view/run_page.hpp"
+#include "tests/hlc_bridge/view/sample_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace hlc::view {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string output_of(const std::string& command) {
+  FILE* pipe = popen(command.c_str(), "r");
+  EXPECT_NE(pipe, nullptr);
+  std::string output;
+  std::array<char, 4096> buffer{};
+  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) output += buffer.data();
+  pclose(pipe);
+  return output;
+}
+
+std::string browser() {
+  const std::string path = output_of("command -v chromium");
+  return path.substr(0, path.find('\n'));
+}
+
+/// What a test's script uses: `page`, text and clicks.
+constexpr const char* kHelpers = R"(
+  const page = window.page;
+  const by_id = (id) => document.getElementById(id);
+  const text = (id) => by_id(id).textContent;
+  const row = (name) => document.querySelector(`[data-row="${name}"]`).textContent;
+  const at = (t) => { page.player.seek(t); page.draw(); };
+  const press = (key) => {
+    document.body.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    page.draw();
+  };
+  const click = (element, x, y) => {
+    const { left, top } = element.getBoundingClientRect();
+    for (const type of ["pointerdown", "pointerup"]) {
+      const place = { clientX: left + x, clientY: top + y, pointerId: 1, bubbles: true };
+      element.dispatchEvent(new PointerEvent(type, place));
+    }
+    page.draw();
+  };
+)";
+
+class PageInBrowser : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (browser().empty()) GTEST_SKIP() << "no chromium on this machine";
+  }
+
+  /// Opens the page and runs a script after it. @return what it has put into `result`
+  [[nodiscard]] json result_of(const FinishedRun& run, const std::string& script,
+                               const std::string& address = "") const {
+    std::string page = run_page(run);
+    const std::string end = "</body>";
+    page.insert(page.find(end),
+                std::string("<pre id=\"result\"></pre><script type=\"module\">const result = {};") +
+                    kHelpers + script +
+                    "\nby_id('result').textContent = JSON.stringify(result);</script>\n");
+    const std::filesystem::path file = folder_ / "run.html";
+    test::put(file, page);
+    const std::string dom = output_of(
+        "HOME=" + folder_.path().string() + " timeout 60 " + browser() +
+        " --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --window-size=1200,800" +
+        " --user-data-dir=" + (folder_ / "profile").string() + " --virtual-time-budget=3000" +
+        " --dump-dom 'file://" + file.string() + address + "' 2>" + (folder_ / "log").string());
+    const std::string begin = "<pre id=\"result\">";
+    const std::size_t from = dom.find(begin);
+    const std::size_t to = dom.find("</pre>", from);
+    if (from == std::string::npos || to == from + begin.size()) {
+      ADD_FAILURE() << "the script has no result: " << dom.substr(0, 2000);
+      return json::object();
+    }
+    return json::parse(dom.substr(from + begin.size(), to - from - begin.size()));
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(PageInBrowser, ShowsEveryCarWithItsStateInWords) {
+  const json result = result_of(sample_run(3, 20, "[script]"), R"(
+    at(2.4);
+    result.cars = [...by_id("cars").rows].map((row) => row.textContent);
+    result.fault = text("fault");
+    const { data } = by_id("map").getContext("2d").getImageData(0, 0, 1000, 500);
+    result.colours = new Set(new Uint32Array(data.buffer)).size;
+  )");
+  ASSERT_EQ(result.at("cars").size(), 3U);
+  EXPECT_THAT(result.at("cars").at(0), HasSubstr("[script]drives, "));
+  EXPECT_THAT(result.at("cars").at(1), HasSubstr("waits for car 1 since 1.0 s (for 1.4 s)"));
+  EXPECT_EQ(result.at("fault"), "");
+  EXPECT_GT(result.at("colours"), 20) << "the map is empty";
+}
+
+TEST_F(PageInBrowser, ATagInANameIsText) {
+  const json result = result_of(sample_run(2, 20, "<b>&amp;"), R"(
+    result.bold = by_id("cars").querySelectorAll("b").length;
+    result.has_name = text("cars").includes(page.run.vehicles[0].name);
+    result.length = page.run.vehicles[0].name.length;
+  )");
+  EXPECT_EQ(result.at("bold"), 0);
+  EXPECT_EQ(result.at("has_name"), true);
+  EXPECT_EQ(result.at("length"), 8);
+}
+
+TEST_F(PageInBrowser, TheTimeLineScrubsBothWays) {
+  const json result = result_of(sample_run(3, 20), R"(
+    const x = () => page.map.place(page.run.vehicles[0], page.player.t).x;
+    result.places = [];
+    const line = by_id("time_line");
+    for (const part of [0.5, 0.25]) {
+      click(line, page.time_line.x_of(part * page.run.end_s), 5);
+      result.places.push([page.player.t, x(), text("step")]);
+    }
+    by_id("scrub").value = "3";
+    by_id("scrub").dispatchEvent(new Event("input"));
+    page.draw();
+    result.places.push([page.player.t, x(), text("step")]);
+    press("ArrowRight");
+    result.right = page.player.t;
+    press("ArrowLeft");
+    press("ArrowLeft");
+    result.left = page.player.t;
+    press("End");
+    result.end = page.player.t;
+  )");
+  const json& places = result.at("places");
+  EXPECT_NEAR(places.at(0).at(0), 2.0, 0.02);
+  EXPECT_NEAR(places.at(1).at(0), 1.0, 0.02);
+  EXPECT_NEAR(places.at(2).at(0), 3.0, 1e-9);
+  EXPECT_NE(places.at(0).at(1), places.at(1).at(1));
+  EXPECT_NE(places.at(0).at(1), places.at(2).at(1));
+  EXPECT_EQ(places.at(2).at(2), "step 15 of 20");
+  EXPECT_NEAR(result.at("right"), 3.2, 1e-9);
+  EXPECT_NEAR(result.at("left"), 2.8, 1e-9);
+  EXPECT_NEAR(result.at("end"), 4.0, 1e-9);
+}
+
+TEST_F(PageInBrowser, AClickOnACarOfAStepShowsItsReportAndThePartner) {
+  const json result = result_of(sample_run(3, 20), R"(
+    at(0.2 * 8 + 0.1);
+    const { x, y } = page.map.place(page.run.vehicles[1], page.player.t);
+    click(by_id("map"), ...page.map.to_canvas([x, y]));
+    result.title = text("report_title");
+    result.state = row("state");
+    result.waits = row("waits for");
+    result.coupled = row("coupled with");
+    result.missing = row("missing");
+    document.querySelector('[data-row="coupled with"] button').click();
+    page.draw();
+    result.partner = text("report_title");
+  )");
+  EXPECT_EQ(result.at("title"), "Car 2 (car 2) in step 8");
+  EXPECT_THAT(result.at("state"), StartsWith("keeps its plan: the new one meets a plan of car 1"));
+  EXPECT_THAT(result.at("waits"), HasSubstr("car 1"));
+  EXPECT_THAT(result.at("coupled"), HasSubstr("car 1"));
+  EXPECT_EQ(result.at("missing"), "none");
+  EXPECT_THAT(result.at("partner"), StartsWith("Car 1 (red)"));
+}
+
+TEST_F(PageInBrowser, AnAddressLeadsToAMomentAndACar) {
+  const json result = result_of(sample_run(3, 20), R"(
+    page.draw();
+    result.t = page.player.t;
+    result.title = text("report_title");
+    result.theme = document.documentElement.dataset.theme;
+  )",
+                                "#t=1.4&car=3&theme=dark");
+  EXPECT_NEAR(result.at("t"), 1.4, 1e-9);
+  EXPECT_THAT(result.at("title"), StartsWith("Car 3"));
+  EXPECT_EQ(result.at("theme"), "dark");
+}
+
+TEST_F(PageInBrowser, NoRequestLeaves) {
+  const json result = result_of(sample_run(3, 20), R"(
+    at(1);
+    result.requests = performance.getEntriesByType("resource").map(({ name }) => name);
+    result.is_refused = await fetch("http://127.0.0.1:9/").then(() => false, () => true);
+  )");
+  EXPECT_EQ(result.at("requests"), json::array());
+  EXPECT_EQ(result.at("is_refused"), true);
+}
+
+TEST_F(PageInBrowser, ARunWithoutStepsIsShown) {
+  const json result = result_of(sample_run(2, 0), R"(
+    at(1);
+    press(" ");
+    result.fault = text("fault");
+    result.cars = [...by_id("cars").rows].map((row) => row.textContent);
+  )");
+  EXPECT_THAT(result.at("fault"), HasSubstr("No step was reported"));
+  EXPECT_THAT(result.at("cars").at(0), HasSubstr("no report in this step"));
+}
+
+}  // namespace
+}  // namespace hlc::view
