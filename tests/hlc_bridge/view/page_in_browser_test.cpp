@@ -172,6 +172,48 @@ TEST_F(PageInBrowser, AClickOnACarOfAStepShowsItsReportAndThePartner) {
   EXPECT_THAT(result.at("partner"), StartsWith("Car 1 (red)"));
 }
 
+TEST_F(PageInBrowser, PlaysForwardsAndBackwardsAtAnySpeed) {
+  const json result = result_of(sample_run(3, 20), R"(
+    const { player } = page;
+    const play = (direction, speed) => {
+      Object.assign(player, { speed });
+      player.play(direction);
+      for (const now_ms of [1000, 1100, 1300]) player.advance(now_ms);
+      player.play(0);
+      return player.t;
+    };
+    result.times = [play(1, 1), play(1, 10), play(-1, 2)];
+  )");
+  EXPECT_NEAR(result.at("times").at(0), 0.3, 1e-9);
+  EXPECT_NEAR(result.at("times").at(1), 3.3, 1e-9);
+  EXPECT_NEAR(result.at("times").at(2), 2.7, 1e-9);
+}
+
+TEST_F(PageInBrowser, TwoFingersZoomAndAFollowedCarStaysInTheMiddle) {
+  const json result = result_of(sample_run(3, 20), R"(
+    const map = by_id("map");
+    const { left, top } = map.getBoundingClientRect();
+    const touch = (type, pointerId, x) => map.dispatchEvent(new PointerEvent(
+      type, { clientX: left + x, clientY: top + 100, pointerId, bubbles: true }));
+    const scale = page.map.scale;
+    touch("pointerdown", 1, 100);
+    touch("pointerdown", 2, 200);
+    touch("pointermove", 2, 300);
+    for (const finger of [1, 2]) touch("pointerup", finger, 100);
+    result.zoom = page.map.scale / scale;
+    result.selected = page.selected;
+    page.select(3);
+    page.set_follow(true);
+    at(2);
+    const { x, y } = page.map.place(page.run.vehicles[2], 2);
+    const [on_x, on_y] = page.map.to_canvas([x, y]);
+    result.aside = Math.hypot(on_x - map.clientWidth / 2, on_y - map.clientHeight / 2);
+  )");
+  EXPECT_NEAR(result.at("zoom"), 2.0, 1e-6);
+  EXPECT_EQ(result.at("selected"), nullptr) << "it was no click";
+  EXPECT_NEAR(result.at("aside"), 0.0, 1e-6);
+}
+
 TEST_F(PageInBrowser, AnAddressLeadsToAMomentAndACar) {
   const json result = result_of(sample_run(3, 20), R"(
     page.draw();
