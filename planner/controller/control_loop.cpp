@@ -104,14 +104,12 @@ StepOutput ControlLoop::proceed(SharedStep* shared) {
   switch (phase_) {
     case StepPhase::kIdle:
       break;
-    case StepPhase::kTraffic:
-      if (shared != nullptr) {
-        controller_->couple(received<coordination::Traffic>(), *shared);
-      } else {
-        controller_->couple(received<coordination::Traffic>());
-      }
+    case StepPhase::kTraffic: {
+      SharedStep alone;
+      controller_->couple(received<coordination::Traffic>(), shared != nullptr ? *shared : alone);
       phase_ = StepPhase::kPredecessors;
       return {};
+    }
     case StepPhase::kPredecessors:
       phase_ = StepPhase::kCommit;
       return plan();

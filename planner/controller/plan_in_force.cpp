@@ -69,7 +69,7 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   const bool is_outside =
       deviation_m_ > vehicle.safety_margin_m && !is_inside_announced(own->pose, seen_.step);
   const bool is_disturbed = is_outside && deviation_m_ > rules_.tracking_error_max_m;
-  is_beside_ = is_outside != is_disturbed;
+  is_beside_ = is_outside && !is_disturbed;
   is_lost_ = is_lost_ && is_disturbed;
   const DeviationCheck result{.deviation_m = deviation_m_,
                               .is_disturbed = is_disturbed,
@@ -78,10 +78,7 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   const double reanchor_m =
       std::max(rules_.reanchor_share * vehicle.safety_margin_m, rules_.tracking_error_max_m);
   if (!is_disturbed && off_m <= reanchor_m) return result;
-  const bool stands =
-      plan_.end() <= seen_.step &&
-      std::abs(own->speed_mps) <= coordination::MissingVehicleRules{}.standing_speed_mps;
-  if (is_disturbed && stands) {
+  if (is_disturbed && stands_at_end()) {
     anchor_at(own->pose, now);
     return {.deviation_m = deviation_m_, .is_disturbed = false, .is_reanchored = true};
   }
@@ -90,6 +87,12 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
   if (!is_disturbed && !stays_inside_announced(*moved_, now)) moved_.reset();
   if (is_disturbed) note_outside(own->pose, own->speed_mps, now);
   return result;
+}
+
+/// At the last sight: the plan has run out, and the vehicle does not move.
+bool PlanInForce::stands_at_end() const {
+  return plan_.end() <= seen_.step &&
+         std::abs(seen_speed_mps_) <= coordination::MissingVehicleRules{}.standing_speed_mps;
 }
 
 /// The vehicle stands where its plan did not lead.

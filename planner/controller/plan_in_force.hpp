@@ -150,6 +150,7 @@ class PlanInForce {
   [[nodiscard]] bool is_inside_announced(const Pose& measured, StepIndex step,
                                          double reserve_m = 0.0) const;
   [[nodiscard]] double deviation_from(const coordination::Plan& plan) const;
+  [[nodiscard]] bool stands_at_end() const;
   void anchor_at(const Pose& pose, StepIndex now);
   void return_to_driven_plan(StepIndex now);
   void note_outside(const Pose& pose, double speed_mps, StepIndex now);

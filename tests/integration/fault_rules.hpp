@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "hlc_bridge/messages/messages.hpp"
@@ -16,9 +17,13 @@ namespace hlc::test {
 inline constexpr Nanoseconds kReactionTime = 500'000'000;
 /// And until then it stands: after the plan of at most 1.6 s, agreed until kReactionTime.
 inline constexpr Nanoseconds kStandingTime = 2'500'000'000;
-/// Of exact cars, which keep to their plans within 1 mm without noise; cars of the lab:
-/// LabLimits::tracking_error_max_m.
+/// Of exact cars, which keep to their plans within 1 mm without noise.
 inline constexpr double kTrackingTolerance_m = 0.010;
+
+/// By how much undisturbed cars of the scenario may be off their plans.
+inline double tracking_tolerance_m(const scenario::Scenario& scenario) {
+  return std::max(kTrackingTolerance_m, scenario.lab ? scenario.lab->tracking_error_max_m : 0.0);
+}
 
 inline void expect_only_the_last_plan(const result::Drive& drive, const Commands& commands,
                                       std::uint8_t vehicle, Nanoseconds fault, Nanoseconds to,

@@ -41,6 +41,7 @@ class FaultyRun {
   /// Not between a command and its copy: a death there leaves a car without the rest of the plan.
   void strike(VehicleId victim, const std::string& process, int signal) {
     records.victim = victim;
+    records.tracking_tolerance_m = tracking_tolerance_m(lab.scenario());
     EXPECT_TRUE(
         eventually(60s, [&] { return is_newest_sent_whole(lab.commands(), victim.value); }));
     lab[process].send(signal);

@@ -74,6 +74,7 @@ LabProcesses::LabProcesses(const LabOptions& options)
     if (options.noise_seed) {
       car.push_back("--noise_seed=" + std::to_string(*options.noise_seed + vehicle.id.value));
     }
+    if (scenario::has_early_stamps(scenario())) car.emplace_back("--stamps=lab");
     add("vehicle_" + id, car, options.vehicle_flags);
     auto middleware = common("middleware");
     middleware.insert(middleware.end(), {"--vehicle_ids=" + id, local});

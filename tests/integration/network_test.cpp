@@ -37,7 +37,7 @@ void expect_only_the_last_plans(const LabOverNetwork& lab, Nanoseconds fault, Na
   const result::Drives drives = lab.drives();
   ASSERT_EQ(drives.size(), std::size_t{kVehicles});
   for (const auto& [id, drive] : drives) {
-    expect_only_the_last_plan(drive, commands, id, fault, to);
+    expect_only_the_last_plan(drive, commands, id, fault, to, tracking_tolerance_m(lab.scenario()));
   }
 }
 

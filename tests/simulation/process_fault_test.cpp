@@ -31,10 +31,7 @@ class FaultyRun {
 
   [[nodiscard]] bool drives_near_another(VehicleId victim) {
     records_.victim = victim;
-    if (run.scenario().lab) {
-      records_.tracking_tolerance_m =
-          std::max(test::kTrackingTolerance_m, run.scenario().lab->tracking_error_max_m);
-    }
+    records_.tracking_tolerance_m = test::tracking_tolerance_m(run.scenario());
     return run.comes_to(
         [&] {
           return run.is_between_commands() && test::drives_near_another(run.reports(), victim) &&
