@@ -40,6 +40,21 @@ hlc::result::Drives drives_of(const std::filesystem::path& run,
   return drives;
 }
 
+/// What a run that was driven gets from its result: the exit code, and why it is not 0.
+struct Verdict {
+  int exit_code{hlc::kExitGood};
+  std::string fault;
+};
+
+Verdict verdict_on(const hlc::result::RunSummary& summary) {
+  if (std::string fault = hlc::result::driving_fault(summary); !fault.empty()) {
+    return {hlc::kExitDrivenBadly, std::move(fault)};
+  }
+  const auto stuck = hlc::result::stuck_vehicles(summary);
+  if (stuck.empty()) return {};
+  return {hlc::kExitStuck, "stuck at the end: vehicles " + hlc::record::ids_to_text(stuck)};
+}
+
 /// run.html. The result does not depend on it: a failure is one line.
 void write_page(const std::filesystem::path& run, const hlc::scenario::Scenario& scenario,
                 hlc::view::FinishedRun page) {
@@ -84,16 +99,19 @@ int summarize_run(const Choices& choices) {
   hlc::write_file(run / "timing.csv", hlc::record::timing_csv(rows));
   hlc::write_file(run / "summary.json", hlc::record::summary_json(summary));
   hlc::record::keep_configuration(run, hlc::scenario::files_of(scenario));
-  if (choices.page) write_page(run, scenario, {description, facts, rows, drives, {}, {}, {}, {}});
-  std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
-  if (const std::string fault = hlc::result::driving_fault(summary); !fault.empty()) {
-    std::cerr << "summarize: " << fault << '\n';
-    return hlc::kExitDrivenBadly;
+  const Verdict verdict = verdict_on(summary);
+  if (choices.page) {
+    hlc::view::FinishedRun page;
+    page.description = description;
+    page.facts = facts;
+    page.rows = rows;
+    page.drives = drives;
+    page.fault = verdict.fault;
+    write_page(run, scenario, std::move(page));
   }
-  const auto stuck = hlc::result::stuck_vehicles(summary);
-  if (stuck.empty()) return hlc::kExitGood;
-  std::cerr << "summarize: stuck at the end: vehicles " << hlc::record::ids_to_text(stuck) << '\n';
-  return hlc::kExitStuck;
+  std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
+  if (!verdict.fault.empty()) std::cerr << "summarize: " << verdict.fault << '\n';
+  return verdict.exit_code;
 }
 
 }  // namespace

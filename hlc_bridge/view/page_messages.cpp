@@ -133,6 +133,7 @@ Json run_json(const FinishedRun& run) {
             {"step_s", description.step_s},
             {"exit_code", run.facts.exit_code},
             {"reason", run.facts.reason},
+            {"fault", run.fault},
             {"statuses", names_up_to(coordination::StepStatus::kMinimalRiskStop)},
             {"reasons", names_up_to(coordination::FallbackReason::kOffRoute)},
             {"qualities", names_up_to(coordination::PlanQuality::kUnproven)}};

@@ -36,6 +36,7 @@ struct FinishedRun {
   std::vector<result::LoggedLine> log;
   std::string time;      ///< kind of time, as text: "logical time"
   std::string revision;  ///< of the programs
+  std::string fault;     ///< what was wrong with the drive; empty: nothing
 };
 
 /// All messages of the run as one JSON array. Equal runs give equal bytes. Bytes that are not UTF-8

@@ -5,7 +5,6 @@ import { state_of } from "./words.js";
 
 const kTrail_s = 4; // of the driven path
 const kNumColours = 8;
-const kSmallestCar_px = 22; // below this length the number stands beside the car
 const kBar_px = 36; // of the buttons above and below
 const kNamed = { red: 0, blue: 1, green: 2 };
 
@@ -37,10 +36,19 @@ function path_through(points, closed) {
   return path;
 }
 
-/// Of points in the frame of the pose.
-function polygon_at(pose, points) {
+/// Path through points in the frame of the pose.
+function path_at(pose, points, closed = true) {
   const corners = points.map(([x, y]) => compose(pose, { x, y, yaw: 0 }));
-  return path_through(corners.map(({ x, y }) => [x, y]), true);
+  return path_through(corners.map(({ x, y }) => [x, y]), closed);
+}
+
+/// Adapts the canvas to its place on the page and the screen. @return its pixels per px of the page
+export function adapt(canvas) {
+  const ratio = window.devicePixelRatio || 1;
+  const width = Math.round(canvas.clientWidth * ratio);
+  const height = Math.round(canvas.clientHeight * ratio);
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  return ratio;
 }
 
 export class MapView {
@@ -62,18 +70,6 @@ export class MapView {
     }));
     this.routes = new Map(run.vehicles.map((v) => [v.id, path_through(v.route, v.closed)]));
     this.fit();
-  }
-
-  /// Adapts to the canvas' place on the page.
-  resize() {
-    const ratio = window.devicePixelRatio || 1;
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (this.canvas.width !== width * ratio || this.canvas.height !== height * ratio) {
-      this.canvas.width = width * ratio;
-      this.canvas.height = height * ratio;
-      if (this.is_fitted) this.fit();
-    }
-    this.ratio = ratio;
   }
 
   fit() {
@@ -115,9 +111,14 @@ export class MapView {
     ];
   }
 
-  /// Where a car is drawn at t: driven, without a record as planned; null: nowhere.
+  /// Where a car is drawn at t: driven, without a record as planned, in the last step at its begin;
+  /// null: nowhere.
   place(vehicle, t) {
-    return this.run.driven_at(vehicle, t) || this.run.planned_at(vehicle, t);
+    const { run } = this;
+    const begin_s = run.step_at(t) * run.step_s;
+    return (
+      run.driven_at(vehicle, t) || run.planned_at(vehicle, t) || run.planned_at(vehicle, begin_s)
+    );
   }
 
   /// The car at (x, y) on the canvas, or the nearest within a finger's width.
@@ -170,7 +171,8 @@ export class MapView {
 
   /// @param shown  {t, selected: id or null, follow, layers: {reference, driven, planned, areas}}
   draw(shown) {
-    this.resize();
+    this.ratio = adapt(this.canvas);
+    if (this.is_fitted) this.fit();
     const followed = shown.follow && this.run.vehicle(shown.selected);
     const pose = followed && this.place(followed, shown.t);
     if (pose) this.centre = [pose.x, pose.y];
@@ -185,8 +187,8 @@ export class MapView {
     }
     for (const vehicle of this.run.vehicles) this.draw_paths(vehicle, shown);
     for (const vehicle of this.run.vehicles) this.draw_car(vehicle, shown);
-    this.use_canvas();
     for (const vehicle of this.run.vehicles) this.draw_waiting(vehicle, shown.t);
+    this.use_canvas();
     for (const vehicle of this.run.vehicles) this.draw_label(vehicle, shown);
   }
 
@@ -231,7 +233,7 @@ export class MapView {
     const side = 0.4 * vehicle.width_m;
     const [near, far] = [0.62 * tip, 0.9 * tip];
     const bonnet = [[far, side], [far, -side], [near, -side], [near, side]];
-    this.fill(polygon_at(pose, bonnet), this.colours.ground);
+    this.fill(path_at(pose, bonnet), this.colours.ground);
     this.stroke(body, alarms ? this.colours.alarm : this.colours.text, alarms ? 3 : 1.2);
     if (vehicle.id !== selected) return;
     const ring = new Path2D();
@@ -241,62 +243,44 @@ export class MapView {
 
   rectangle({ length_m, width_m }, pose) {
     const [x, y] = [length_m / 2, width_m / 2];
-    return polygon_at(pose, [[x, y], [-x, y], [-x, -y], [x, -y]]);
+    return path_at(pose, [[x, y], [-x, y], [-x, -y], [x, -y]]);
   }
 
   /// Arrows from a car that waits to those for which it does.
   draw_waiting(vehicle, t) {
     const report = this.run.report_at(vehicle, t);
-    const pose = report && this.place(vehicle, t);
-    if (!pose) return;
-    const from = this.to_canvas([pose.x, pose.y]);
+    const from = report && this.place(vehicle, t);
+    if (!from) return;
     for (const id of report.waits_for) {
       const other = this.run.vehicle(id);
-      const there = other && this.place(other, t);
-      if (!there) continue;
-      const to = this.to_canvas([there.x, there.y]);
-      const angle = Math.atan2(to[1] - from[1], to[0] - from[0]);
-      const apart_px = Math.hypot(to[0] - from[0], to[1] - from[1]);
-      const gap_px = Math.min(0.5 * vehicle.length_m * this.scale, apart_px / 3);
-      const tip = [to[0] - gap_px * Math.cos(angle), to[1] - gap_px * Math.sin(angle)];
-      const arrow = new Path2D();
-      arrow.moveTo(...from);
-      arrow.lineTo(...tip);
-      for (const side of [-0.4, 0.4]) {
-        arrow.moveTo(...tip);
-        arrow.lineTo(tip[0] - 11 * Math.cos(angle + side), tip[1] - 11 * Math.sin(angle + side));
-      }
-      this.context.setLineDash([]);
-      for (const [colour, width_px] of [[this.colours.ground, 5], [this.colours.alarm, 2]]) {
-        this.context.strokeStyle = colour;
-        this.context.lineWidth = width_px;
-        this.context.stroke(arrow);
-      }
+      const to = other && this.place(other, t);
+      if (!to) continue;
+      const yaw = Math.atan2(to.y - from.y, to.x - from.x);
+      const apart_m = Math.hypot(to.y - from.y, to.x - from.x);
+      const tip = -Math.min(0.5 * vehicle.length_m, apart_m / 3);
+      const [back, side] = [tip - 10 / this.scale, 4 / this.scale];
+      const points = [[-apart_m, 0], [tip, 0], [back, side], [tip, 0], [back, -side]];
+      const arrow = path_at({ x: to.x, y: to.y, yaw }, points, false);
+      this.stroke(arrow, this.colours.ground, 5);
+      this.stroke(arrow, this.colours.alarm, 2);
     }
   }
 
-  /// The car's number on it, or beside it if it is small, and its state if it does not just drive.
+  /// The car's number on it, and its state if it does not just drive.
   draw_label(vehicle, { t, selected, layers }) {
     const pose = this.place(vehicle, t);
     if (!pose) return;
     const [x, y] = this.to_canvas([pose.x, pose.y]);
-    const length_px = vehicle.length_m * this.scale;
-    const is_small = length_px < kSmallestCar_px;
     const { fill, ink } = this.colour_of(vehicle);
     this.context.textAlign = "center";
     this.context.textBaseline = "middle";
-    if (is_small) {
-      this.text(String(vehicle.id), x, y - length_px / 2 - 9, this.colours.text, 12);
-    } else {
-      const back = compose(pose, { x: -0.12 * vehicle.length_m, y: 0, yaw: 0 });
-      const [at_x, at_y] = this.to_canvas([back.x, back.y]);
-      const size_px = Math.max(11, Math.min(22, 0.8 * vehicle.width_m * this.scale));
-      this.text(String(vehicle.id), at_x, at_y, ink, size_px, fill);
-    }
-    const { kind, short } = state_of(this.run, vehicle, t);
+    const back = compose(pose, { x: -0.12 * vehicle.length_m, y: 0, yaw: 0 });
+    const size_px = Math.max(11, Math.min(22, 0.8 * vehicle.width_m * this.scale));
+    this.text(String(vehicle.id), ...this.to_canvas([back.x, back.y]), ink, size_px, fill);
+    const { short } = state_of(this.run, vehicle, t);
     if (!short || (!layers.labels && vehicle.id !== selected)) return;
-    if (kind === "standby" && vehicle.id !== selected) return;
-    this.text(short, x, y + Math.max(length_px, 20) / 2 + 10, this.colours.text, 12);
+    const below_px = Math.max(vehicle.length_m * this.scale, 20) / 2 + 10;
+    this.text(short, x, y + below_px, this.colours.text, 12);
   }
 
   text(words, x, y, colour, size_px, halo = this.colours.ground) {

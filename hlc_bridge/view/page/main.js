@@ -16,7 +16,6 @@ class Page {
     this.run = run;
     this.selected = null;
     this.follow = false;
-    this.layers = Object.fromEntries(kLayers.map((name) => [name, by_id(name).checked]));
     this.map = new MapView(by_id("map"));
     this.map.set_run(run);
     this.time_line = new TimeLine(by_id("time_line"), this.map.colours);
@@ -26,14 +25,17 @@ class Page {
     this.list = new CarList(by_id("cars"), run, select);
     this.report = new Report(by_id("report_title"), by_id("report"), run, select);
     this.log = new Log(by_id("log"), run, (t) => this.player.seek(t));
+    by_id("scrub").max = String(run.end_s);
     this.listen();
     this.read_address();
     this.draw_static();
     this.show();
   }
 
+  /// What draw() draws.
   get shown() {
-    return { t: this.player.t, selected: this.selected, follow: this.follow, layers: this.layers };
+    const layers = Object.fromEntries(kLayers.map((name) => [name, by_id(name).checked]));
+    return { t: this.player.t, selected: this.selected, follow: this.follow, layers };
   }
 
   select(id) {
@@ -59,7 +61,7 @@ class Page {
     this.report.show(shown);
     this.log.show(shown);
     by_id("cursor").style.left = `${this.time_line.x_of(shown.t) - 1}px`;
-    by_id("step").textContent = `step ${run.step_at(shown.t)} of ${run.num_steps}`;
+    by_id("step").textContent = `step ${run.step_at(shown.t)} (0 to ${run.num_steps - 1})`;
     if (document.activeElement !== by_id("time")) by_id("time").value = shown.t.toFixed(2);
     by_id("scrub").value = String(shown.t);
     by_id("play").setAttribute("aria-pressed", String(this.player.direction === 1));
@@ -91,8 +93,7 @@ class Page {
     };
     listen_to_scrubbing(by_id("time_line"), scrub);
     listen_to_scrubbing(by_id("planning"), (x) => this.player.seek(this.time_line.time_at(x)));
-    this.listen_to_buttons();
-    listen_to_keys(this.keys());
+    this.listen_to_inputs();
     new ResizeObserver(() => {
       this.draw_static();
       this.draw(); // at once: the next frame would be late, and this one distorted
@@ -101,61 +102,51 @@ class Page {
     window.addEventListener("hashchange", () => this.read_address());
   }
 
-  listen_to_buttons() {
-    const on = (id, action) => by_id(id).addEventListener("click", action);
-    on("first", () => this.player.seek(0));
-    on("last", () => this.player.seek(this.run.end_s));
-    on("step_back", () => this.player.step(-1));
-    on("step_on", () => this.player.step(1));
-    on("play", () => this.player.toggle(1));
-    on("back", () => this.player.toggle(-1));
-    on("fit", () => this.fit());
-    on("closer", () => this.zoom(1.4));
-    on("farther", () => this.zoom(1 / 1.4));
-    on("theme", () => this.set_theme(root.dataset.theme !== "dark"));
-    by_id("follow").addEventListener("change", () => this.set_follow(by_id("follow").checked));
-    const speed = by_id("speed");
-    speed.addEventListener("change", () => (this.player.speed = Number(speed.value)));
-    const scrub = by_id("scrub");
-    scrub.max = String(this.run.end_s);
-    scrub.addEventListener("input", () => this.player.seek(Number(scrub.value)));
-    by_id("time").addEventListener("change", () => this.player.seek(Number(by_id("time").value)));
-    for (const name of kLayers) {
-      by_id(name).addEventListener("change", () => {
-        this.layers[name] = by_id(name).checked;
-        this.show();
-      });
+  listen_to_inputs() {
+    const on = (id, event, action) => by_id(id).addEventListener(event, action);
+    on("theme", "click", () => this.set_theme(root.dataset.theme !== "dark"));
+    on("follow", "change", () => this.set_follow(by_id("follow").checked));
+    on("speed", "change", () => this.set_speed(0));
+    on("scrub", "input", () => this.player.seek(Number(by_id("scrub").value)));
+    on("time", "change", () => this.player.seek(Number(by_id("time").value)));
+    on("layers", "change", () => this.show());
+    const keys = {};
+    for (const [key, action, button] of this.actions()) {
+      keys[key] = action;
+      if (button) on(button, "click", action);
     }
+    listen_to_keys(keys);
   }
 
-  keys() {
+  /// Keys, what they do, and the button that does the same.
+  actions() {
     const { player } = this;
-    const faster = (change) => {
-      const speed = by_id("speed");
-      speed.selectedIndex = Math.max(0, Math.min(speed.length - 1, speed.selectedIndex + change));
-      player.speed = Number(speed.value);
-    };
-    return {
-      " ": () => player.toggle(1),
-      k: () => player.play(0),
-      l: () => player.toggle(1),
-      j: () => player.toggle(-1),
-      ArrowRight: () => player.step(1),
-      ArrowLeft: () => player.step(-1),
-      "Shift+ArrowRight": () => player.step(10),
-      "Shift+ArrowLeft": () => player.step(-10),
-      Home: () => player.seek(0),
-      End: () => player.seek(this.run.end_s),
-      ArrowUp: () => faster(1),
-      ArrowDown: () => faster(-1),
-      n: () => this.select_next(1),
-      p: () => this.select_next(-1),
-      Escape: () => this.select(null),
-      f: () => this.set_follow(!this.follow),
-      "+": () => this.zoom(1.4),
-      "-": () => this.zoom(1 / 1.4),
-      0: () => this.fit(),
-    };
+    return [
+      ["Home", () => player.seek(0), "first"],
+      ["j", () => player.toggle(-1), "back"],
+      ["ArrowLeft", () => player.step(-1), "step_back"],
+      [" ", () => player.toggle(1), "play"],
+      ["ArrowRight", () => player.step(1), "step_on"],
+      ["End", () => player.seek(this.run.end_s), "last"],
+      ["Shift+ArrowRight", () => player.step(10)],
+      ["Shift+ArrowLeft", () => player.step(-10)],
+      ["ArrowUp", () => this.set_speed(1)],
+      ["ArrowDown", () => this.set_speed(-1)],
+      ["n", () => this.select_next(1)],
+      ["p", () => this.select_next(-1)],
+      ["Escape", () => this.select(null)],
+      ["f", () => this.set_follow(!this.follow)],
+      ["+", () => this.zoom(1.4), "closer"],
+      ["-", () => this.zoom(1 / 1.4), "farther"],
+      ["0", () => this.fit(), "fit"],
+    ];
+  }
+
+  /// @param change  of the place in the list of speeds
+  set_speed(change) {
+    const speed = by_id("speed");
+    speed.selectedIndex = Math.max(0, Math.min(speed.length - 1, speed.selectedIndex + change));
+    this.player.speed = Number(speed.value);
   }
 
   select_next(change) {
@@ -208,8 +199,7 @@ function start() {
     root.dataset.theme = kDark.matches ? "dark" : "light";
     const run = new Run();
     for (const message of JSON.parse(by_id("data").textContent)) run.take(message);
-    document.title = `${run.about.scenario}: run`;
-    by_id("title").textContent = run.about.scenario;
+    document.title = by_id("title").textContent = `Run of ${run.about.scenario}`;
     by_id("about").textContent = run_words(run.about);
     by_id("fault").textContent = fault_words(run.about);
     if (run.num_steps === 0) by_id("fault").textContent += " No step was reported.";

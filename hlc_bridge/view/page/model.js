@@ -187,7 +187,8 @@ export class Run {
     return { maneuver, frame: compose(next.pose, inverse(maneuver.path.at(-1))) };
   }
 
-  /// Where the plan in force is at t; null: there is none.
+  /// Where the plan in force is at t; null: there is none, or it is not known, as within the last
+  /// step.
   planned_at(vehicle, t) {
     const k = this.step_at(t);
     const report = vehicle.steps[k];
@@ -202,7 +203,7 @@ export class Run {
       return compose(motion.frame, between(path[i], path[i + 1], at - i));
     }
     const next = vehicle.steps[k + 1];
-    return next ? between(report.pose, next.pose, part) : report.pose;
+    return next ? between(report.pose, next.pose, part) : null;
   }
 
   /// Points of the plan in force during the steps from ... to - 1.

@@ -126,6 +126,7 @@ export class Log {
 /// The line about the whole run: what was driven, how it ended.
 export function run_words(about) {
   const parts = [
+    `${about.vehicles.length} cars`,
     `profile ${about.profile}`,
     about.time,
     about.map ? `map ${about.map}` : "open ground",
@@ -140,7 +141,7 @@ export function run_words(about) {
 
 export function fault_words(about) {
   const parts = about.died.map(([process, sign]) => `${process}: ${sign}`);
-  if (about.reason) parts.unshift(about.reason);
+  parts.unshift(...[about.reason, about.fault].filter(Boolean));
   if (about.exit_code !== 0) parts.push(`exit code ${about.exit_code}`);
   return parts.join("; ");
 }

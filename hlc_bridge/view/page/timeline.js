@@ -1,30 +1,43 @@
 // Pictures over time: what every car did in every step, and how long planning took.
 
-import { colour_index } from "./draw.js";
+import { adapt, colour_index } from "./draw.js";
 import { kKinds, kind_in } from "./words.js";
 
 const kLeft_px = 30; // for the cars' numbers
 const kRight_px = 16;
 
-/// How strongly a step of this kind shows its car's colour, otherwise kFaint; and marks that
-/// distinguish kinds without colours.
+/// How strongly a step of this kind shows its car's colour, otherwise kFaint.
 const kFaint = 0.2;
 const kOpacities = { drives: 0.7, standby: 0.05, silent: 0 };
-const kMarks = { waits: "hatch", fallback: "bar", stop: "cross" };
+/// Marks distinguish kinds without colours: [name of the mark's colour, slope of its lines; 0: a
+/// full box].
+const kMarks = { waits: ["text", 1], fallback: ["alarm", 0], stop: ["alarm", -1] };
 
-function draw_step(context, kind, box, fill, colours) {
-  context.globalAlpha = kOpacities[kind] ?? kFaint;
-  context.fillStyle = fill;
-  context.fillRect(box.left, box.top, box.width, box.height);
+function draw_step(context, kind, { left, top, width, height }, fill, colours) {
+  const [colour, slope] = kMarks[kind] || [];
+  context.globalAlpha = slope === 0 ? 1 : (kOpacities[kind] ?? kFaint);
+  context.fillStyle = slope === 0 ? colours[colour] : fill;
+  context.fillRect(left, top, width, height);
   context.globalAlpha = 1;
-  if (kMarks[kind]) draw_mark(context, kMarks[kind], box, colours);
+  if (!slope) return;
+  context.save();
+  context.beginPath();
+  context.rect(left, top, width, height);
+  context.clip();
+  context.strokeStyle = colours[colour];
+  context.lineWidth = 2;
+  context.beginPath();
+  for (let x = left - height; x < left + width; x += 5) {
+    context.moveTo(x, slope > 0 ? top + height : top);
+    context.lineTo(x + height, slope > 0 ? top : top + height);
+  }
+  context.stroke();
+  context.restore();
 }
 
 /// Context of the canvas, cleared, with one unit per px of the page.
 function clean_context(canvas) {
-  const ratio = window.devicePixelRatio || 1;
-  canvas.width = canvas.clientWidth * ratio;
-  canvas.height = canvas.clientHeight * ratio;
+  const ratio = adapt(canvas);
   const context = canvas.getContext("2d");
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
@@ -58,7 +71,7 @@ export class TimeLine {
   set_run(run) {
     this.run = run;
     this.stretches = run.vehicles.map((vehicle) => stretches_of(run, vehicle));
-    this.row_px = run.vehicles.length > 8 ? 8 : 14;
+    this.row_px = run.vehicles.length > 8 ? 10 : 14;
     this.canvas.style.height = `${run.vehicles.length * this.row_px + 20}px`;
   }
 
@@ -84,7 +97,7 @@ export class TimeLine {
     this.run.vehicles.forEach((vehicle, row) => {
       const y = row * this.row_px;
       const is_selected = vehicle.id === selected;
-      context.font = `${is_selected ? 700 : 400} ${Math.min(11, this.row_px)}px sans-serif`;
+      context.font = `${is_selected ? 700 : 400} ${Math.min(11, this.row_px - 1)}px sans-serif`;
       context.textAlign = "right";
       context.textBaseline = "middle";
       context.fillStyle = this.colours.text;
@@ -116,29 +129,6 @@ export class TimeLine {
       context.fillText(`${(i * distance_s).toFixed(digits)} s`, x, this.canvas.clientHeight);
     }
   }
-}
-
-/// The mark of a kind within a box: hatch, bar or cross.
-function draw_mark(context, mark, { left, top, width, height }, colours) {
-  context.save();
-  context.beginPath();
-  context.rect(left, top, width, height);
-  context.clip();
-  context.strokeStyle = mark === "hatch" ? colours.text : colours.alarm;
-  context.fillStyle = colours.alarm;
-  context.lineWidth = mark === "hatch" ? 2 : 1.5;
-  context.beginPath();
-  if (mark === "bar") context.fillRect(left, top, width, height);
-  for (let x = left - height; x < left + width; x += 5) {
-    if (mark === "bar") break;
-    context.moveTo(x, top + height);
-    context.lineTo(x + height, top);
-    if (mark !== "cross") continue;
-    context.moveTo(x, top);
-    context.lineTo(x + height, top + height);
-  }
-  context.stroke();
-  context.restore();
 }
 
 /// One canvas per kind that occurs in the run, with its words.

@@ -27,7 +27,7 @@ function reason_words(report) {
   return words[report.reason] || report.reason;
 }
 
-/// {kind, words, short}: kind is one of kKinds, short a label for the map, empty while it drives.
+/// {kind, words, short}: kind is one of kKinds, short a label for the map, empty: none.
 export function state_of(run, vehicle, t) {
   const report = run.report_at(vehicle, t);
   if (!report) return { kind: "silent", words: "no report in this step", short: "no report" };
@@ -47,7 +47,7 @@ export function state_of(run, vehicle, t) {
   }
   if (report.status === "standby") {
     const where = report.reason === "off_route" ? ", off every route" : "";
-    return { kind: "standby", words: `stands by for the start${where}`, short: "standby" };
+    return { kind: "standby", words: `stands by for the start${where}`, short: "" };
   }
   if (stands) return { kind: "stands", words: "stands", short: "" };
   return { kind: "drives", words: `drives, ${Math.abs(driven.speed).toFixed(2)} m/s`, short: "" };
@@ -100,8 +100,8 @@ function millimetres(value_m) {
 }
 
 function pose_words(pose) {
-  const degrees = (pose.yaw * 180) / Math.PI;
-  const turn = Math.round(degrees - 360 * Math.floor((degrees + 180) / 360));
+  const degrees = Math.round((pose.yaw * 180) / Math.PI);
+  const turn = degrees - 360 * Math.ceil((degrees - 180) / 360);
   return `x ${pose.x.toFixed(3)} m, y ${pose.y.toFixed(3)} m, ${turn} deg`;
 }
 
@@ -114,7 +114,8 @@ export function report_rows(run, vehicle, t) {
   if (driven) rows.push(["driven", pose_words(driven)]);
   if (planned) rows.push(["planned", pose_words(planned)]);
   if (driven && planned) {
-    rows.push(["apart", millimetres(Math.hypot(driven.x - planned.x, driven.y - planned.y))]);
+    const apart_m = Math.hypot(driven.x - planned.x, driven.y - planned.y);
+    rows.push(["difference", millimetres(apart_m)]);
   }
   if (!report) return rows;
   const { status, reason, quality, gap_m2, level } = report;
@@ -132,6 +133,6 @@ export function report_rows(run, vehicle, t) {
     ["planning time", planning_words(run, report)],
     ["vertices", `${report.generated} generated, ${report.expanded} expanded`],
     ["level", level === 0 ? "0 (plans first)" : String(level)],
-    ["off its area", millimetres(report.deviation_m)],
+    ["deviation", `${millimetres(report.deviation_m)} outside the planned footprint`],
   ];
 }

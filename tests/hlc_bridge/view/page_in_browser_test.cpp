@@ -55,21 +55,31 @@ constexpr const char* kHelpers = R"(
   };
 )";
 
+/// As JSON without characters that the printed page would escape.
+constexpr const char* kPutResult = R"(
+  by_id("result").textContent = JSON.stringify(result).replace(
+    /[<>&]/g, (c) => "\\u00" + c.charCodeAt(0).toString(16));
+</script>
+)";
+
 class PageInBrowser : public testing::Test {
  protected:
   void SetUp() override {
     if (browser().empty()) GTEST_SKIP() << "no chromium on this machine";
   }
 
-  /// Opens the page and runs a script after it. @return what it has put into `result`
   [[nodiscard]] json result_of(const FinishedRun& run, const std::string& script,
                                const std::string& address = "") const {
-    std::string page = run_page(run);
+    return result_of(run_page(run), script, address);
+  }
+
+  /// Opens the page and runs a script after it. @return what it has put into `result`
+  [[nodiscard]] json result_of(std::string page, const std::string& script,
+                               const std::string& address = "") const {
     const std::string end = "</body>";
     page.insert(page.find(end),
                 std::string("<pre id=\"result\"></pre><script type=\"module\">const result = {};") +
-                    kHelpers + script +
-                    "\nby_id('result').textContent = JSON.stringify(result);</script>\n");
+                    kHelpers + script + kPutResult);
     const std::filesystem::path file = folder_ / "run.html";
     test::put(file, page);
     const std::string dom = output_of(
@@ -106,15 +116,81 @@ TEST_F(PageInBrowser, ShowsEveryCarWithItsStateInWords) {
   EXPECT_GT(result.at("colours"), 20) << "the map is empty";
 }
 
-TEST_F(PageInBrowser, ATagInANameIsText) {
-  const json result = result_of(sample_run(2, 20, "<b>&amp;"), R"(
-    result.bold = by_id("cars").querySelectorAll("b").length;
-    result.has_name = text("cars").includes(page.run.vehicles[0].name);
-    result.length = page.run.vehicles[0].name.length;
+TEST_F(PageInBrowser, NamesAndMessagesAreText) {
+  const std::string name = "</script><script>window.is_harmed = true;</script><b>&amp;\u2028'\"`";
+  FinishedRun run = sample_run(2, 20, name);
+  run.description.scenario = name;
+  run.facts.reason = name;
+  run.fault = name;
+  run.log.push_back({.process = name, .stamp = {}, .level = name, .text = name, .run_s = {}});
+  for (result::StepRecord& row : run.rows) row.record.report.subgraph = name;
+  const json result = result_of(run, R"(
+    page.select(1);
+    page.draw();
+    result.is_harmed = Boolean(window.is_harmed);
+    result.num_scripts = document.scripts.length;
+    result.num_bold = document.querySelectorAll("aside td b, h1 b, dd b").length;
+    result.name = page.run.vehicles[0].name;
+    result.shown = [text("title"), text("fault"), text("cars"), text("log"), row("subgraph")]
+      .map((shown) => shown.includes(result.name));
   )");
-  EXPECT_EQ(result.at("bold"), 0);
-  EXPECT_EQ(result.at("has_name"), true);
-  EXPECT_EQ(result.at("length"), 8);
+  EXPECT_EQ(result.at("is_harmed"), false);
+  EXPECT_EQ(result.at("num_scripts"), 3) << "the data, the page's and this test's";
+  EXPECT_EQ(result.at("num_bold"), 0);
+  EXPECT_EQ(result.at("name"), name);
+  EXPECT_EQ(result.at("shown"), json({true, true, true, true, true}));
+}
+
+TEST_F(PageInBrowser, DataOfAnotherVersionIsRefusedInOneLine) {
+  const auto with_format = [](std::string page) {
+    const std::string format = R"("kind":"run","format":)";
+    return page.replace(page.find(format) + format.size(), 1, "999");
+  };
+  const json result = result_of(with_format(run_page(sample_run(2, 20))), R"(
+    result.fault = text("fault");
+    result.is_running = page !== undefined;
+  )");
+  EXPECT_EQ(result.at("fault"),
+            "This run cannot be shown: data of format 999, must be 1, that of this page");
+  EXPECT_EQ(result.at("is_running"), false);
+}
+
+TEST_F(PageInBrowser, AnIncompleteFileIsReportedInOneLine) {
+  const auto without_end = [](std::string page) {
+    const std::string data = R"("kind":"steps")";
+    return page.substr(0, page.find(data)) + "]</script></body>";
+  };
+  const json result = result_of(without_end(run_page(sample_run(2, 20))), R"(
+    result.fault = text("fault");
+  )");
+  EXPECT_THAT(result.at("fault"), HasSubstr("the file is incomplete"));
+}
+
+TEST_F(PageInBrowser, TheLastMomentShowsNoPlannedPose) {
+  const json result = result_of(sample_run(3, 20), R"(
+    page.select(1);
+    at(page.run.end_s - 0.1);
+    result.rows = [...document.querySelectorAll("#report dt")].map((row) => row.textContent);
+    result.is_placed = page.map.place(page.run.vehicles[0], page.player.t) !== null;
+  )");
+  EXPECT_THAT(result.at("rows").get<std::vector<std::string>>(),
+              testing::AllOf(testing::Contains("driven"), testing::Not(testing::Contains("planned"))))
+      << "where the step leads is not recorded";
+  EXPECT_EQ(result.at("is_placed"), true);
+}
+
+TEST_F(PageInBrowser, TwentyCarsAreDrawnTwentyTimesASecond) {
+  const json result = result_of(sample_run(20, 250), R"(
+    at(1);
+    const begin_ms = performance.now();
+    for (let i = 0; i < 40; ++i) {
+      at(0.2 * i + 20);
+      by_id("map").getContext("2d").getImageData(0, 0, 1, 1); // waits for the drawing
+    }
+    result.frame_ms = (performance.now() - begin_ms) / 40;
+  )");
+  EXPECT_LT(result.at("frame_ms"), 50);
+  RecordProperty("frame_ms", result.at("frame_ms").dump());
 }
 
 TEST_F(PageInBrowser, TheTimeLineScrubsBothWays) {
@@ -144,7 +220,7 @@ TEST_F(PageInBrowser, TheTimeLineScrubsBothWays) {
   EXPECT_NEAR(places.at(2).at(0), 3.0, 1e-9);
   EXPECT_NE(places.at(0).at(1), places.at(1).at(1));
   EXPECT_NE(places.at(0).at(1), places.at(2).at(1));
-  EXPECT_EQ(places.at(2).at(2), "step 15 of 20");
+  EXPECT_EQ(places.at(2).at(2), "step 15 (0 to 19)");
   EXPECT_NEAR(result.at("right"), 3.2, 1e-9);
   EXPECT_NEAR(result.at("left"), 2.8, 1e-9);
   EXPECT_NEAR(result.at("end"), 4.0, 1e-9);
