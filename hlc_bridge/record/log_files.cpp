@@ -49,7 +49,8 @@ std::vector<std::filesystem::path> log_files_in(const std::filesystem::path& fol
   std::vector<std::filesystem::path> files;
   if (!std::filesystem::is_directory(folder)) return files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".log") files.push_back(entry.path());
+    const bool is_log = entry.is_regular_file() && entry.path().extension() == ".log";
+    if (is_log) files.push_back(entry.path());
   }
   std::ranges::sort(files);
   return files;

@@ -90,19 +90,17 @@ export function listen_to_pointers(canvas, view, { on_click, on_move }) {
   }, { passive: false });
 }
 
-/// Dragging along the time line. @param seek  called with x and y on it
-export function listen_to_scrubbing(canvas, seek) {
+/// Dragging along the time lines. @param seek  called with the events
+export function listen_to_scrubbing(lines, seek) {
   let is_down = false;
-  canvas.addEventListener("pointerdown", (event) => {
+  lines.addEventListener("pointerdown", (event) => {
     is_down = true;
-    if (event.isTrusted) canvas.setPointerCapture(event.pointerId);
-    seek(event.offsetX, event.offsetY, true);
+    if (event.isTrusted) lines.setPointerCapture(event.pointerId);
+    seek(event);
   });
-  canvas.addEventListener("pointermove", (event) => {
-    if (is_down) seek(event.offsetX, event.offsetY, false);
-  });
+  lines.addEventListener("pointermove", (event) => is_down && seek(event));
   for (const end of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(end, () => (is_down = false));
+    lines.addEventListener(end, () => (is_down = false));
   }
 }
 

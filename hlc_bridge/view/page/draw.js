@@ -17,16 +17,15 @@ export function colour_index(run, vehicle) {
 /// The page's colours as the style sheet gives them, light or dark.
 export function read_colours() {
   const style = getComputedStyle(document.documentElement);
-  const value = (name) => style.getPropertyValue(name).trim();
-  const cars = [];
+  const value = (name) => style.getPropertyValue(`--${name}`).trim();
+  const colours = { cars: [] };
   for (let i = 0; i < kNumColours; ++i) {
-    cars.push({ fill: value(`--car-${i}`), ink: value(`--ink-${i}`) });
+    colours.cars.push({ fill: value(`car-${i}`), ink: value(`ink-${i}`) });
   }
-  const named = {};
   for (const name of ["ground", "lane", "bound", "text", "muted", "alarm"]) {
-    named[name] = value(`--${name}`);
+    colours[name] = value(name);
   }
-  return { cars, ...named };
+  return colours;
 }
 
 function path_through(points, closed) {

@@ -15,7 +15,6 @@ class Page {
   constructor(run) {
     this.run = run;
     this.selected = null;
-    this.follow = false;
     this.map = new MapView(by_id("map"));
     this.map.set_run(run);
     this.time_line = new TimeLine(by_id("time_line"), this.map.colours);
@@ -30,6 +29,10 @@ class Page {
     this.read_address();
     this.draw_static();
     this.show();
+  }
+
+  get follow() {
+    return by_id("follow").checked;
   }
 
   /// What draw() draws.
@@ -66,7 +69,6 @@ class Page {
     by_id("scrub").value = String(shown.t);
     by_id("play").setAttribute("aria-pressed", String(this.player.direction === 1));
     by_id("back").setAttribute("aria-pressed", String(this.player.direction === -1));
-    by_id("follow").checked = this.follow;
   }
 
   draw_static() {
@@ -86,13 +88,12 @@ class Page {
       },
       on_move: () => this.show(),
     });
-    const scrub = (x, y, is_first) => {
-      const vehicle = is_first && this.time_line.vehicle_at(y);
+    listen_to_scrubbing(by_id("times"), ({ type, target, offsetX, offsetY }) => {
+      const is_row = type === "pointerdown" && target.id === "time_line";
+      const vehicle = is_row && this.time_line.vehicle_at(offsetY);
       if (vehicle) this.select(vehicle.id);
-      this.player.seek(this.time_line.time_at(x));
-    };
-    listen_to_scrubbing(by_id("time_line"), scrub);
-    listen_to_scrubbing(by_id("planning"), (x) => this.player.seek(this.time_line.time_at(x)));
+      this.player.seek(this.time_line.time_at(offsetX));
+    });
     this.listen_to_inputs();
     new ResizeObserver(() => {
       this.draw_static();
@@ -105,8 +106,8 @@ class Page {
   listen_to_inputs() {
     const on = (id, event, action) => by_id(id).addEventListener(event, action);
     on("theme", "click", () => this.set_theme(root.dataset.theme !== "dark"));
-    on("follow", "change", () => this.set_follow(by_id("follow").checked));
-    on("speed", "change", () => this.set_speed(0));
+    on("follow", "change", () => this.set_follow(this.follow));
+    on("speed", "change", () => (this.player.speed = Number(by_id("speed").value)));
     on("scrub", "input", () => this.player.seek(Number(by_id("scrub").value)));
     on("time", "change", () => this.player.seek(Number(by_id("time").value)));
     on("layers", "change", () => this.show());
@@ -130,8 +131,6 @@ class Page {
       ["End", () => player.seek(this.run.end_s), "last"],
       ["Shift+ArrowRight", () => player.step(10)],
       ["Shift+ArrowLeft", () => player.step(-10)],
-      ["ArrowUp", () => this.set_speed(1)],
-      ["ArrowDown", () => this.set_speed(-1)],
       ["n", () => this.select_next(1)],
       ["p", () => this.select_next(-1)],
       ["Escape", () => this.select(null)],
@@ -140,13 +139,6 @@ class Page {
       ["-", () => this.zoom(1 / 1.4), "farther"],
       ["0", () => this.fit(), "fit"],
     ];
-  }
-
-  /// @param change  of the place in the list of speeds
-  set_speed(change) {
-    const speed = by_id("speed");
-    speed.selectedIndex = Math.max(0, Math.min(speed.length - 1, speed.selectedIndex + change));
-    this.player.speed = Number(speed.value);
   }
 
   select_next(change) {
@@ -162,14 +154,14 @@ class Page {
   }
 
   fit() {
-    this.follow = false;
+    by_id("follow").checked = false;
     this.map.fit();
     this.show();
   }
 
   /// Without a selected car the first one is followed.
   set_follow(follow) {
-    this.follow = follow;
+    by_id("follow").checked = follow;
     if (follow && this.selected === null) this.select_next(1);
     if (follow && this.map.is_fitted) this.map.zoom(2.5);
     this.show();

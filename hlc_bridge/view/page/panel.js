@@ -29,6 +29,7 @@ function badge(run, vehicle) {
 export class CarList {
   constructor(body, run, select) {
     this.run = run;
+    this.list = body.closest("div");
     this.rows = run.vehicles.map((vehicle) => {
       const row = element("tr", "", { tabindex: "0", id: `car_${vehicle.id}` });
       const cells = ["", vehicle.name, "", ""].map((text) => element("td", text));
@@ -43,7 +44,7 @@ export class CarList {
 
   show({ t, selected }) {
     const chosen = this.rows.find(({ vehicle }) => vehicle.id === selected);
-    if (chosen && chosen !== this.chosen) chosen.row.scrollIntoView({ block: "nearest" });
+    if (chosen && chosen !== this.chosen) this.scroll_to(chosen.row);
     this.chosen = chosen;
     for (const { vehicle, row, state, planning } of this.rows) {
       const { kind, words } = state_of(this.run, vehicle, t);
@@ -54,6 +55,13 @@ export class CarList {
       row.classList.toggle("late", Boolean(report && report.is_late));
       row.classList.toggle("selected", vehicle.id === selected);
     }
+  }
+
+  /// Scrolls the list alone: on a small screen the map must stay where it is.
+  scroll_to({ offsetTop, offsetHeight }) {
+    const { list } = this;
+    const least = offsetTop + offsetHeight - list.clientHeight;
+    list.scrollTop = Math.max(least, Math.min(list.scrollTop, offsetTop));
   }
 }
 

@@ -80,9 +80,10 @@ export class TimeLine {
     return kLeft_px + (width * t) / Math.max(this.run.end_s, 1e-9);
   }
 
+  /// May be outside the run.
   time_at(x) {
     const width = Math.max(1, this.canvas.clientWidth - kLeft_px - kRight_px);
-    return Math.max(0, Math.min(this.run.end_s, ((x - kLeft_px) / width) * this.run.end_s));
+    return ((x - kLeft_px) / width) * this.run.end_s;
   }
 
   /// Vehicle of the row at y; undefined: none.

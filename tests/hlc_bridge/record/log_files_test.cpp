@@ -18,6 +18,7 @@ TEST(LogFiles, LinesAreInTheOrderOfTheirStamps) {
       "[2026-01-31 10:00:00.500] [info] b_1: starts\n\n[2026-01-31 10:00:02.000] [warning] late\n");
   put(folder / "a.log", "[2026-01-31 10:00:01.000] [error] a: fails: [x] [y] z\n  details\n");
   put(folder / "a.pids", "1 2 3\n");
+  std::filesystem::create_directory(folder / "folder.log");
   const std::vector<result::LoggedLine> lines = read_logs(folder.path(), {});
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines[0].process, "b_1");

@@ -166,6 +166,21 @@ TEST_F(PageInBrowser, AnIncompleteFileIsReportedInOneLine) {
   EXPECT_THAT(result.at("fault"), HasSubstr("the file is incomplete"));
 }
 
+TEST_F(PageInBrowser, ASelectedCarScrollsItsListOnly) {
+  const json result = result_of(sample_run(20, 20), R"(
+    const list = by_id("list");
+    list.style.marginTop = "3000px";
+    const aside = document.querySelector("aside");
+    result.scrolled = [];
+    for (const id of [20, 1]) {
+      page.select(id);
+      page.draw();
+      result.scrolled.push(list.scrollTop > by_id("car_1").offsetTop, aside.scrollTop + window.scrollY);
+    }
+  )");
+  EXPECT_EQ(result.at("scrolled"), json({true, 0, false, 0}));
+}
+
 TEST_F(PageInBrowser, TheLastMomentShowsNoPlannedPose) {
   const json result = result_of(sample_run(3, 20), R"(
     page.select(1);
@@ -173,8 +188,9 @@ TEST_F(PageInBrowser, TheLastMomentShowsNoPlannedPose) {
     result.rows = [...document.querySelectorAll("#report dt")].map((row) => row.textContent);
     result.is_placed = page.map.place(page.run.vehicles[0], page.player.t) !== null;
   )");
-  EXPECT_THAT(result.at("rows").get<std::vector<std::string>>(),
-              testing::AllOf(testing::Contains("driven"), testing::Not(testing::Contains("planned"))))
+  EXPECT_THAT(
+      result.at("rows").get<std::vector<std::string>>(),
+      testing::AllOf(testing::Contains("driven"), testing::Not(testing::Contains("planned"))))
       << "where the step leads is not recorded";
   EXPECT_EQ(result.at("is_placed"), true);
 }
@@ -211,8 +227,18 @@ TEST_F(PageInBrowser, TheTimeLineScrubsBothWays) {
     press("ArrowLeft");
     press("ArrowLeft");
     result.left = page.player.t;
+    at(3.05);
+    press("ArrowLeft");
+    result.left_of_step = page.player.t;
+    at(3.05);
+    press("ArrowRight");
+    result.right_of_step = page.player.t;
     press("End");
+    press("ArrowRight");
     result.end = page.player.t;
+    press("Home");
+    press("ArrowLeft");
+    result.begin = page.player.t;
   )");
   const json& places = result.at("places");
   EXPECT_NEAR(places.at(0).at(0), 2.0, 0.02);
@@ -223,7 +249,10 @@ TEST_F(PageInBrowser, TheTimeLineScrubsBothWays) {
   EXPECT_EQ(places.at(2).at(2), "step 15 (0 to 19)");
   EXPECT_NEAR(result.at("right"), 3.2, 1e-9);
   EXPECT_NEAR(result.at("left"), 2.8, 1e-9);
+  EXPECT_NEAR(result.at("left_of_step"), 3.0, 1e-9);
+  EXPECT_NEAR(result.at("right_of_step"), 3.2, 1e-9);
   EXPECT_NEAR(result.at("end"), 4.0, 1e-9);
+  EXPECT_EQ(result.at("begin"), 0.0);
 }
 
 TEST_F(PageInBrowser, AClickOnACarOfAStepShowsItsReportAndThePartner) {
@@ -307,10 +336,13 @@ TEST_F(PageInBrowser, NoRequestLeaves) {
   const json result = result_of(sample_run(3, 20), R"(
     at(1);
     result.requests = performance.getEntriesByType("resource").map(({ name }) => name);
-    result.is_refused = await fetch("http://127.0.0.1:9/").then(() => false, () => true);
+    const refused = new Promise((done) => document.addEventListener(
+      "securitypolicyviolation", ({ effectiveDirective }) => done(effectiveDirective)));
+    fetch("http://127.0.0.1:8000/").catch(() => {});
+    result.refused = await Promise.race([refused, new Promise((done) => setTimeout(done, 1000))]);
   )");
   EXPECT_EQ(result.at("requests"), json::array());
-  EXPECT_EQ(result.at("is_refused"), true);
+  EXPECT_EQ(result.at("refused"), "connect-src") << "by the page's policy";
 }
 
 TEST_F(PageInBrowser, ARunWithoutStepsIsShown) {
