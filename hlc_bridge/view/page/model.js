@@ -178,13 +178,15 @@ export class Run {
   }
 
   /// Frame of the maneuver under way in step k: it ends where the plan is at the next step. null
-  /// without a plan or a known maneuver.
+  /// without a plan or a known maneuver, or if the plan continues elsewhere, after a deviation.
   frame_of_maneuver(vehicle, k) {
     const report = vehicle.steps[k];
     const next = vehicle.steps[k + 1];
     const maneuver = report && this.maneuvers[report.maneuver];
     if (!maneuver || !next) return null;
-    return { maneuver, frame: compose(next.pose, inverse(maneuver.path.at(-1))) };
+    const frame = compose(next.pose, inverse(maneuver.path.at(-1)));
+    const apart_m = Math.hypot(frame.x - report.pose.x, frame.y - report.pose.y);
+    return apart_m < 0.05 ? { maneuver, frame } : null;
   }
 
   /// Where the plan in force is at t; null: there is none, or it is not known, as within the last
@@ -202,11 +204,11 @@ export class Run {
       const i = Math.min(path.length - 2, Math.floor(at));
       return compose(motion.frame, between(path[i], path[i + 1], at - i));
     }
-    const next = vehicle.steps[k + 1];
+    const next = !this.maneuvers[report.maneuver] && vehicle.steps[k + 1];
     return next ? between(report.pose, next.pose, part) : null;
   }
 
-  /// Points of the plan in force during the steps from ... to - 1.
+  /// Points of the plan in force during the steps from ... to - 1, as far as it is known.
   planned_path(vehicle, from, to) {
     const points = [];
     for (let k = from; k < to; ++k) {
@@ -216,6 +218,7 @@ export class Run {
         ? motion.maneuver.path.map((pose) => compose(motion.frame, pose))
         : [vehicle.steps[k].pose];
       for (const pose of poses) points.push([pose.x, pose.y]);
+      if (!motion) break;
     }
     return points;
   }

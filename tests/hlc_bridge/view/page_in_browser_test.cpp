@@ -166,6 +166,29 @@ TEST_F(PageInBrowser, AnIncompleteFileIsReportedInOneLine) {
   EXPECT_THAT(result.at("fault"), HasSubstr("the file is incomplete"));
 }
 
+TEST_F(PageInBrowser, APlanThatContinuesElsewhereIsNotConnected) {
+  FinishedRun run = sample_run(1, 20);
+  for (result::StepRecord& row : run.rows) {
+    if (row.step >= 10) row.record.report.planned_pose.x_m += 1.0;
+  }
+  const json result = result_of(run, R"(
+    const { run } = page;
+    const [car] = run.vehicles;
+    const points = run.planned_path(car, 5, 15);
+    result.longest_m = Math.max(...points.slice(1).map(
+      ([x, y], i) => Math.hypot(x - points[i][0], y - points[i][1])));
+    result.num_points = points.length;
+    result.within = run.planned_at(car, 9.5 * run.step_s);
+    result.has_area = run.area_in(car, 9) !== null;
+    result.has_next_area = run.area_in(car, 10) !== null;
+  )");
+  EXPECT_LT(result.at("longest_m"), 0.1);
+  EXPECT_GT(result.at("num_points"), 40) << "four maneuvers lead there";
+  EXPECT_EQ(result.at("within"), nullptr);
+  EXPECT_EQ(result.at("has_area"), false);
+  EXPECT_EQ(result.at("has_next_area"), true);
+}
+
 TEST_F(PageInBrowser, ASelectedCarScrollsItsListOnly) {
   const json result = result_of(sample_run(20, 20), R"(
     const list = by_id("list");
