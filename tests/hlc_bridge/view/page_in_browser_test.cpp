@@ -156,7 +156,7 @@ TEST_F(PageInBrowser, DataOfAnotherVersionIsRefusedInOneLine) {
 }
 
 TEST_F(PageInBrowser, AnIncompleteFileIsReportedInOneLine) {
-  const auto without_end = [](std::string page) {
+  const auto without_end = [](const std::string& page) {
     const std::string data = R"("kind":"steps")";
     return page.substr(0, page.find(data)) + "]</script></body>";
   };
