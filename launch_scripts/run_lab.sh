@@ -36,6 +36,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
                           (default: a free block)
   --dump-problems DIR     write each planning problem to a JSON file in this new or empty folder, for plan_problem; in
                           real time this may delay steps; requires --policy none if the scenario has a policy
+  --page BOOL             true (default): the run folder gets run.html, the whole run to be watched in a browser
   --out DIR               run folder (default: a new one in runs/)
   --preset NAME           build preset (default release)
   --startup_timeout_s N   startup timeout (default 20)
@@ -52,7 +53,7 @@ fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
 simulated_time=true noise_seed="" gains_scale="" stamps="" on_death=stop transport=loopback dds_domain="" out="" preset=release
-bin="" build=true share=""
+bin="" build=true share="" page=true
 startup_timeout_s=20
 while (($#)); do
   case "$1" in
@@ -72,12 +73,13 @@ while (($#)); do
   case "$name" in
     scenario | profile | engine | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
       simulated_time | noise_seed | gains_scale | stamps | on_death | transport | dds_domain | out | preset | bin | \
-      share | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+      share | page | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
 done
 [[ $simulated_time == true || $simulated_time == false ]] ||
   fail "--simulated_time = $simulated_time, must be one of true, false"
+[[ $page == true || $page == false ]] || fail "--page = $page, must be one of true, false"
 [[ $on_death == stop || ($on_death == continue && $simulated_time == false) ]] ||
   fail "--on_death = $on_death, must be stop, or in real time continue"
 [[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, must be one of loopback, lab"
@@ -258,7 +260,9 @@ end_children() {
 }
 # The table of the steps that were recorded.
 summarize() {
-  "$bin/summarize" --run "$out" "${choices[@]}" ${noise_seed:+--noise_seed "$noise_seed"}
+  local page_flag=()
+  [[ $page == true ]] || page_flag=(--page false)
+  "$bin/summarize" --run "$out" "${choices[@]}" ${noise_seed:+--noise_seed "$noise_seed"} "${page_flag[@]}"
 }
 # shellcheck disable=SC2317 # called by the trap
 end_early() {

@@ -78,6 +78,15 @@ struct StepRecord {
   std::optional<Pose> driven;  ///< at t(k); none if it was not recorded
 };
 
+/// A line that a process of the run logged.
+struct LoggedLine {
+  std::string process;  ///< name of its log
+  std::string stamp;    ///< local wall time, "2026-01-31 23:59:59.999"; empty: a line without
+  std::string level;    ///< as logged: info, warning, error; empty: a line without
+  std::string text;
+  std::optional<double> run_s;  ///< the same time from t(0) of the run on; in real time only
+};
+
 /// The first step with a report other than standby; nothing if no vehicle started.
 [[nodiscard]] std::optional<std::uint64_t> first_step_of(std::span<const ReportRecord> reports);
 

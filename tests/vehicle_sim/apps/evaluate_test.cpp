@@ -402,6 +402,23 @@ TEST_F(Evaluate, KeepsRunFoldersThatTheExportAndTheSummaryRead) {
   EXPECT_EQ(json["trace_sha256"], results()["runs"][2]["trace_sha256"]);
 }
 
+TEST_F(Evaluate, TheSummaryOfARunHasAPageWhereItCanAndShouldBeWritten) {
+  ASSERT_EQ(evaluate("--keep_runs").exit_code, 0);
+  const std::filesystem::path run = out_ / "runs" / "2";
+  const std::filesystem::path page = run / "run.html";
+  const std::string summarize = "summarize --subgraph D --run " + run.string() + " --scenario " +
+                                run.string() + "/configuration/scenarios/paper_red_alone.yaml";
+  EXPECT_EQ(run_program(summarize + " --page false").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(page));
+  EXPECT_EQ(run_program(summarize).exit_code, 0);
+  EXPECT_THAT(text_of(page), HasSubstr("\"scenario\":\"paper_red_alone\""));
+  std::filesystem::remove(page);
+  std::filesystem::create_directory(page);
+  const Outcome refused = run_program(summarize);
+  EXPECT_EQ(refused.exit_code, 0) << "the result is written";
+  EXPECT_THAT(refused.output, HasSubstr("summarize: no run.html: "));
+}
+
 TEST_F(Evaluate, KeepsRunFoldersAlsoOfRunsThatAreThereAlready) {
   ASSERT_EQ(evaluate("").exit_code, 0);
   const nlohmann::json without = timeless(results());

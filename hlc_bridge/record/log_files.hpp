@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "hlc_bridge/result/run_record.hpp"
+
+namespace hlc::record {
+
+/// More lines than this are left out, the last ones; one line more states how many.
+inline constexpr std::size_t kMostLoggedLines = 5000;
+
+/// The lines of all files `*.log` in the folder, by their stamps; lines without a stamp follow the
+/// one before them in their file. Stamps are local times of the machine that logged: times of the
+/// run are right if this machine's time zone is the same.
+/// @return nothing if there is no such folder
+/// @throws std::runtime_error naming the file that cannot be read
+[[nodiscard]] std::vector<result::LoggedLine> read_logs(const std::filesystem::path& folder,
+                                                        const result::RunFacts& facts);
+
+}  // namespace hlc::record

@@ -1,0 +1,12 @@
+# Writes -D output=<source>: the files -D files=<names, separated by commas> of -D folder=<folder> as texts.
+cmake_minimum_required(VERSION 3.25)
+set(text "#include \"hlc_bridge/view/page_files.hpp\"\n\nnamespace hlc::view {\n\n")
+string(APPEND text "const std::map<std::string, std::string>& page_files() {\n")
+string(APPEND text "  static const std::map<std::string, std::string> kFiles{\n")
+string(REPLACE "," ";" files "${files}")
+foreach(name IN LISTS files)
+  file(READ "${folder}/${name}" content)
+  string(APPEND text "{\"${name}\", R\"page(${content})page\"},\n")
+endforeach()
+string(APPEND text "  };\n  return kFiles;\n}\n\n}  // namespace hlc::view\n")
+file(WRITE "${output}" "${text}")

@@ -1,0 +1,205 @@
+// Puts the page together. A finished run is in the element "data": a JSON array of messages.
+
+import { Run } from "./model.js";
+import { MapView, read_colours } from "./draw.js";
+import { TimeLine, draw_planning, fill_legend } from "./timeline.js";
+import { CarList, Log, Report, fault_words, run_words } from "./panel.js";
+import { Player, listen_to_keys, listen_to_pointers, listen_to_scrubbing } from "./controls.js";
+
+const by_id = (id) => document.getElementById(id);
+const root = document.documentElement;
+const kDark = matchMedia("(prefers-color-scheme: dark)");
+const kLayers = ["reference", "planned", "driven", "areas", "labels"];
+
+class Page {
+  constructor(run) {
+    this.run = run;
+    this.selected = null;
+    this.map = new MapView(by_id("map"));
+    this.map.set_run(run);
+    this.time_line = new TimeLine(by_id("time_line"), this.map.colours);
+    this.time_line.set_run(run);
+    this.player = new Player(run, () => this.show());
+    const select = (id) => this.select(id);
+    this.list = new CarList(by_id("cars"), run, select);
+    this.report = new Report(by_id("report_title"), by_id("report"), run, select);
+    this.log = new Log(by_id("log"), run, (t) => this.player.seek(t));
+    by_id("scrub").max = String(run.end_s);
+    this.listen();
+    this.read_address();
+    this.draw_static();
+    this.show();
+  }
+
+  get follow() {
+    return by_id("follow").checked;
+  }
+
+  /// What draw() draws.
+  get shown() {
+    const layers = Object.fromEntries(kLayers.map((name) => [name, by_id(name).checked]));
+    return { t: this.player.t, selected: this.selected, follow: this.follow, layers };
+  }
+
+  select(id) {
+    this.selected = this.run.vehicle(id) ? id : null;
+    this.draw_static();
+    this.show();
+  }
+
+  /// Draws once per frame, however many changes there were.
+  show() {
+    if (this.is_due) return;
+    this.is_due = true;
+    requestAnimationFrame(() => {
+      this.is_due = false;
+      this.draw();
+    });
+  }
+
+  draw() {
+    const { run, shown } = this;
+    this.map.draw(shown);
+    this.list.show(shown);
+    this.report.show(shown);
+    this.log.show(shown);
+    by_id("cursor").style.left = `${this.time_line.x_of(shown.t) - 1}px`;
+    by_id("step").textContent = `step ${run.step_at(shown.t)} (0 to ${run.num_steps - 1})`;
+    if (document.activeElement !== by_id("time")) by_id("time").value = shown.t.toFixed(2);
+    by_id("scrub").value = String(shown.t);
+    by_id("play").setAttribute("aria-pressed", String(this.player.direction === 1));
+    by_id("back").setAttribute("aria-pressed", String(this.player.direction === -1));
+  }
+
+  draw_static() {
+    this.time_line.draw(this.shown);
+    draw_planning(by_id("planning"), this.time_line, this.shown);
+    fill_legend(by_id("legend"), this.time_line);
+    const of = this.selected === null ? "the slowest car" : `car ${this.selected}`;
+    by_id("planning_title").textContent =
+      `planning time of ${of} in every step, logarithmic; dashed: the step of ${this.run.step_s} s`;
+  }
+
+  listen() {
+    listen_to_pointers(by_id("map"), this.map, {
+      on_click: (x, y) => {
+        const vehicle = this.map.car_at(x, y, this.player.t);
+        this.select(vehicle ? vehicle.id : null);
+      },
+      on_move: () => this.show(),
+    });
+    listen_to_scrubbing(by_id("times"), ({ type, target, offsetX, offsetY }) => {
+      const is_row = type === "pointerdown" && target.id === "time_line";
+      const vehicle = is_row && this.time_line.vehicle_at(offsetY);
+      if (vehicle) this.select(vehicle.id);
+      this.player.seek(this.time_line.time_at(offsetX));
+    });
+    this.listen_to_inputs();
+    new ResizeObserver(() => {
+      this.draw_static();
+      this.draw(); // at once: the next frame would be late, and this one distorted
+    }).observe(by_id("map"));
+    kDark.addEventListener("change", () => this.set_theme(kDark.matches));
+    window.addEventListener("hashchange", () => this.read_address());
+  }
+
+  listen_to_inputs() {
+    const on = (id, event, action) => by_id(id).addEventListener(event, action);
+    on("theme", "click", () => this.set_theme(root.dataset.theme !== "dark"));
+    on("follow", "change", () => this.set_follow(this.follow));
+    on("speed", "change", () => (this.player.speed = Number(by_id("speed").value)));
+    on("scrub", "input", () => this.player.seek(Number(by_id("scrub").value)));
+    on("time", "change", () => this.player.seek(Number(by_id("time").value)));
+    on("layers", "change", () => this.show());
+    const keys = {};
+    for (const [key, action, button] of this.actions()) {
+      keys[key] = action;
+      if (button) on(button, "click", action);
+    }
+    listen_to_keys(keys);
+  }
+
+  /// Keys, what they do, and the button that does the same.
+  actions() {
+    const { player } = this;
+    return [
+      ["Home", () => player.seek(0), "first"],
+      ["j", () => player.toggle(-1), "back"],
+      ["ArrowLeft", () => player.step(-1), "step_back"],
+      [" ", () => player.toggle(1), "play"],
+      ["ArrowRight", () => player.step(1), "step_on"],
+      ["End", () => player.seek(this.run.end_s), "last"],
+      ["Shift+ArrowRight", () => player.step(10)],
+      ["Shift+ArrowLeft", () => player.step(-10)],
+      ["n", () => this.select_next(1)],
+      ["p", () => this.select_next(-1)],
+      ["Escape", () => this.select(null)],
+      ["f", () => this.set_follow(!this.follow)],
+      ["+", () => this.zoom(1.4), "closer"],
+      ["-", () => this.zoom(1 / 1.4), "farther"],
+      ["0", () => this.fit(), "fit"],
+    ];
+  }
+
+  select_next(change) {
+    const { vehicles } = this.run;
+    const now = vehicles.findIndex((vehicle) => vehicle.id === this.selected);
+    const next = now < 0 ? (change > 0 ? 0 : vehicles.length - 1) : now + change;
+    this.select(vehicles[(next + vehicles.length) % vehicles.length].id);
+  }
+
+  zoom(factor) {
+    this.map.zoom(factor);
+    this.show();
+  }
+
+  fit() {
+    by_id("follow").checked = false;
+    this.map.fit();
+    this.show();
+  }
+
+  /// Without a selected car the first one is followed.
+  set_follow(follow) {
+    by_id("follow").checked = follow;
+    if (follow && this.selected === null) this.select_next(1);
+    if (follow && this.map.is_fitted) this.map.zoom(2.5);
+    this.show();
+  }
+
+  set_theme(is_dark) {
+    root.dataset.theme = is_dark ? "dark" : "light";
+    this.map.colours = read_colours();
+    this.time_line.colours = this.map.colours;
+    this.draw_static();
+    this.show();
+  }
+
+  /// A link to a moment: run.html#t=7.4&car=2, also step=37 and theme=dark.
+  read_address() {
+    const given = new URLSearchParams(location.hash.slice(1));
+    if (given.has("theme")) this.set_theme(given.get("theme") === "dark");
+    if (given.has("car")) this.select(Number(given.get("car")));
+    if (given.has("follow")) this.set_follow(given.get("follow") !== "0");
+    if (given.has("step")) this.player.seek(Number(given.get("step")) * this.run.step_s);
+    if (given.has("t")) this.player.seek(Number(given.get("t")));
+  }
+}
+
+function start() {
+  try {
+    root.dataset.theme = kDark.matches ? "dark" : "light";
+    const run = new Run();
+    for (const message of JSON.parse(by_id("data").textContent)) run.take(message);
+    document.title = by_id("title").textContent = `Run of ${run.about.scenario}`;
+    by_id("about").textContent = run_words(run.about);
+    by_id("fault").textContent = fault_words(run.about);
+    if (run.num_steps === 0) by_id("fault").textContent += " No step was reported.";
+    window.page = new Page(run);
+  } catch (error) {
+    by_id("fault").textContent = `This run cannot be shown: ${error.message}`;
+    throw error;
+  }
+}
+
+start();

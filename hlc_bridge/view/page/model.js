@@ -1,0 +1,254 @@
+// The run as the page knows it, and questions about it at any time. Data arrives as messages
+// through Run.take(): those embedded in the page of a finished run, or later those of a live run,
+// in smaller portions. hlc_bridge/view/page_messages.hpp specifies the messages.
+
+const kFormat = 1;
+
+/// The values of which a column holds the first and then the differences.
+function sums(deltas, unit) {
+  let sum = 0;
+  return deltas.map((delta) => (sum += delta) * unit);
+}
+
+/// Points [[x, y], ...] of a line: x and y in turn, each as the difference to the point before.
+function line_of(deltas, unit) {
+  const points = [];
+  let x = 0;
+  let y = 0;
+  for (let i = 0; i + 1 < deltas.length; i += 2) {
+    x += deltas[i];
+    y += deltas[i + 1];
+    points.push([x * unit, y * unit]);
+  }
+  return points;
+}
+
+/// The pose b, given in the frame a, in the frame in which a is given.
+export function compose(a, b) {
+  const c = Math.cos(a.yaw);
+  const s = Math.sin(a.yaw);
+  return { x: a.x + c * b.x - s * b.y, y: a.y + s * b.x + c * b.y, yaw: a.yaw + b.yaw };
+}
+
+function inverse(a) {
+  const c = Math.cos(a.yaw);
+  const s = Math.sin(a.yaw);
+  return { x: -c * a.x - s * a.y, y: s * a.x - c * a.y, yaw: -a.yaw };
+}
+
+/// Between two poses, the heading along the shorter arc.
+function between(a, b, part) {
+  const turn = Math.atan2(Math.sin(b.yaw - a.yaw), Math.cos(b.yaw - a.yaw));
+  return {
+    x: a.x + part * (b.x - a.x),
+    y: a.y + part * (b.y - a.y),
+    yaw: a.yaw + part * turn,
+  };
+}
+
+export class Run {
+  constructor() {
+    this.about = null; // of the message "run"
+    this.lanes = []; // {left, right}, points
+    this.vehicles = []; // in the order of the run
+    this.maneuvers = []; // {label, path: poses, area: points}
+    this.log = [];
+    this.num_steps = 0; // steps reported so far
+  }
+
+  /// @throws Error for a message of another format
+  take(message) {
+    const take = {
+      run: () => this.take_run(message),
+      maneuvers: () => this.take_maneuvers(message),
+      steps: () => this.take_steps(message),
+      drive: () => this.take_drive(message),
+      log: () => this.log.push(...message.lines),
+    }[message.kind];
+    if (!take) throw new Error(`unknown kind of message ${message.kind}`);
+    take();
+  }
+
+  take_run(message) {
+    if (message.format !== kFormat) {
+      throw new Error(`data of format ${message.format}, must be ${kFormat}, that of this page`);
+    }
+    this.about = message;
+    this.unit = message.unit_m;
+    this.step_s = message.step_s;
+    this.lanes = message.lanes.map(([left, right]) => ({
+      left: line_of(left, this.unit),
+      right: line_of(right, this.unit),
+    }));
+    this.vehicles = message.vehicles.map((vehicle) => ({
+      ...vehicle,
+      route: line_of(vehicle.route, this.unit),
+      steps: [], // report of step k at [k]; none where the car did not report
+      drives: [], // stretches without a gap
+    }));
+  }
+
+  take_maneuvers(message) {
+    for (const { label, path, area } of message.maneuvers) {
+      const poses = [];
+      for (let i = 0; i + 2 < path.length; i += 3) {
+        const [x, y, yaw] = path.slice(i, i + 3);
+        poses.push({ x: x * this.unit, y: y * this.unit, yaw: yaw * this.about.unit_rad });
+      }
+      this.maneuvers.push({ label, path: poses, area: line_of(area, this.unit) });
+    }
+  }
+
+  take_steps(message) {
+    const { about, unit } = this;
+    const { names, sets, units, columns } = message;
+    const tables = {
+      status: about.statuses,
+      reason: about.reasons,
+      quality: about.qualities,
+      ...{ label: names, subgraph: names, coupled: sets, missing: sets, waits_for: sets },
+    };
+    const [x, y] = [sums(message.x, unit), sums(message.y, unit)];
+    const yaw = sums(message.heading, about.unit_rad);
+    const vehicle = this.vehicle(message.vehicle);
+    sums(message.k, 1).forEach((k, i) => {
+      const report = { k, pose: { x: x[i], y: y[i], yaw: yaw[i] } };
+      for (const [name, column] of Object.entries(columns)) {
+        report[name] = tables[name] ? tables[name][column[i]] : column[i] * (units[name] || 1);
+      }
+      vehicle.steps[k] = report;
+      this.num_steps = Math.max(this.num_steps, k + 1);
+    });
+  }
+
+  take_drive(message) {
+    this.vehicle(message.vehicle).drives.push({
+      begin_s: message.begin_ms * 1e-3,
+      tick_s: message.tick_ms * 1e-3,
+      x: sums(message.x, this.unit),
+      y: sums(message.y, this.unit),
+      yaw: sums(message.yaw, this.about.unit_rad),
+      speed: sums(message.speed, 1e-3),
+    });
+  }
+
+  vehicle(id) {
+    return this.vehicles.find((vehicle) => vehicle.id === id);
+  }
+
+  /// Time at the end of the last step reported.
+  get end_s() {
+    return this.num_steps * this.step_s;
+  }
+
+  step_at(t) {
+    return Math.max(0, Math.min(this.num_steps - 1, Math.floor(t / this.step_s + 1e-6)));
+  }
+
+  /// What the car reported in the step at t; undefined: nothing.
+  report_at(vehicle, t) {
+    return vehicle.steps[this.step_at(t)];
+  }
+
+  /// Where the car was, with its speed; null: not recorded.
+  driven_at(vehicle, t) {
+    for (const drive of vehicle.drives) {
+      const at = (t - drive.begin_s) / drive.tick_s;
+      const last = drive.x.length - 1;
+      if (at < -1e-6 || at > last + 1e-6) continue;
+      const i = Math.max(0, Math.min(last, Math.floor(at)));
+      const j = Math.min(last, i + 1);
+      const part = Math.max(0, Math.min(1, at - i));
+      const pose = (n) => ({ x: drive.x[n], y: drive.y[n], yaw: drive.yaw[n] });
+      const speed = drive.speed[i] + part * (drive.speed[j] - drive.speed[i]);
+      return { ...between(pose(i), pose(j), part), speed };
+    }
+    return null;
+  }
+
+  /// Points that the car drove in this time.
+  driven_path(vehicle, from_s, to_s) {
+    const points = [];
+    for (const drive of vehicle.drives) {
+      const first = Math.max(0, Math.ceil((from_s - drive.begin_s) / drive.tick_s));
+      const last = Math.min(drive.x.length - 1, Math.floor((to_s - drive.begin_s) / drive.tick_s));
+      for (let i = first; i <= last; ++i) points.push([drive.x[i], drive.y[i]]);
+    }
+    return points;
+  }
+
+  /// Frame of the maneuver under way in step k: it ends where the plan is at the next step. null
+  /// without a plan or a known maneuver, or if the plan continues elsewhere, after a deviation.
+  frame_of_maneuver(vehicle, k) {
+    const report = vehicle.steps[k];
+    const next = vehicle.steps[k + 1];
+    const maneuver = report && this.maneuvers[report.maneuver];
+    if (!maneuver || !next) return null;
+    const frame = compose(next.pose, inverse(maneuver.path.at(-1)));
+    const apart_m = Math.hypot(frame.x - report.pose.x, frame.y - report.pose.y);
+    return apart_m < 0.05 ? { maneuver, frame } : null;
+  }
+
+  /// Where the plan in force is at t; null: there is none, or it is not known, as within the last
+  /// step.
+  planned_at(vehicle, t) {
+    const k = this.step_at(t);
+    const report = vehicle.steps[k];
+    if (!report || report.label === "") return null;
+    const part = Math.max(0, Math.min(1, t / this.step_s - k));
+    const motion = this.frame_of_maneuver(vehicle, k);
+    if (part < 1e-6) return report.pose;
+    if (motion) {
+      const path = motion.maneuver.path;
+      const at = part * (path.length - 1);
+      const i = Math.min(path.length - 2, Math.floor(at));
+      return compose(motion.frame, between(path[i], path[i + 1], at - i));
+    }
+    const next = !this.maneuvers[report.maneuver] && vehicle.steps[k + 1];
+    return next ? between(report.pose, next.pose, part) : null;
+  }
+
+  /// Points of the plan in force during the steps from ... to - 1, as far as it is known.
+  planned_path(vehicle, from, to) {
+    const points = [];
+    for (let k = from; k < to; ++k) {
+      if (!vehicle.steps[k] || vehicle.steps[k].label === "") continue;
+      const motion = this.frame_of_maneuver(vehicle, k);
+      const poses = motion
+        ? motion.maneuver.path.map((pose) => compose(motion.frame, pose))
+        : [vehicle.steps[k].pose];
+      for (const pose of poses) points.push([pose.x, pose.y]);
+      if (!motion) break;
+    }
+    return points;
+  }
+
+  /// Area that the car may occupy in step k according to its plan; null: not known.
+  area_in(vehicle, k) {
+    const motion = this.frame_of_maneuver(vehicle, k);
+    if (!motion) return null;
+    return motion.maneuver.area.map(([x, y]) => {
+      const corner = compose(motion.frame, { x, y, yaw: 0 });
+      return [corner.x, corner.y];
+    });
+  }
+
+  /// Box of everything there is to see: {min: [x, y], max: [x, y]}.
+  box() {
+    const min = [Infinity, Infinity];
+    const max = [-Infinity, -Infinity];
+    const add = ([x, y]) => {
+      min[0] = Math.min(min[0], x);
+      min[1] = Math.min(min[1], y);
+      max[0] = Math.max(max[0], x);
+      max[1] = Math.max(max[1], y);
+    };
+    for (const { left, right } of this.lanes) [...left, ...right].forEach(add);
+    for (const vehicle of this.vehicles) {
+      vehicle.route.forEach(add);
+      for (const drive of vehicle.drives) drive.x.forEach((x, i) => add([x, drive.y[i]]));
+      vehicle.steps.forEach(({ label, pose }) => label !== "" && add([pose.x, pose.y]));
+    }
+    return min[0] <= max[0] ? { min, max } : { min: [0, 0], max: [4.5, 4] };
+  }
+}

@@ -1,0 +1,155 @@
+// The text beside the map: cars, the selected car's report, log. All text of the run is set as
+// text, never as markup: a name with tags in it shows as it is.
+
+import { colour_index } from "./draw.js";
+import { planning_words, report_rows, seconds, state_of } from "./words.js";
+
+export function element(tag, text = "", attributes = {}) {
+  const made = document.createElement(tag);
+  made.textContent = text;
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  return made;
+}
+
+/// Changes the page only where it differs: it is called in every frame.
+function set_text(target, text) {
+  if (target.textContent !== text) target.textContent = text;
+}
+
+/// A car's number on its colour.
+function badge(run, vehicle) {
+  const made = element("span", String(vehicle.id), { class: "badge" });
+  const index = colour_index(run, vehicle);
+  made.style.background = `var(--car-${index})`;
+  made.style.color = `var(--ink-${index})`;
+  return made;
+}
+
+/// The list of all cars with their states. @param select  called with the id of a clicked car
+export class CarList {
+  constructor(body, run, select) {
+    this.run = run;
+    this.list = body.closest("div");
+    this.rows = run.vehicles.map((vehicle) => {
+      const row = element("tr", "", { tabindex: "0", id: `car_${vehicle.id}` });
+      const cells = ["", vehicle.name, "", ""].map((text) => element("td", text));
+      cells[0].append(badge(run, vehicle));
+      row.append(...cells);
+      row.addEventListener("click", () => select(vehicle.id));
+      row.addEventListener("keydown", ({ key }) => key === "Enter" && select(vehicle.id));
+      body.append(row);
+      return { vehicle, row, state: cells[2], planning: cells[3] };
+    });
+  }
+
+  show({ t, selected }) {
+    const chosen = this.rows.find(({ vehicle }) => vehicle.id === selected);
+    if (chosen && chosen !== this.chosen) this.scroll_to(chosen.row);
+    this.chosen = chosen;
+    for (const { vehicle, row, state, planning } of this.rows) {
+      const { kind, words } = state_of(this.run, vehicle, t);
+      const report = this.run.report_at(vehicle, t);
+      set_text(state, words);
+      set_text(planning, report ? planning_words(this.run, report).split(",")[0] : "");
+      if (row.dataset.kind !== kind) row.dataset.kind = kind;
+      row.classList.toggle("late", Boolean(report && report.is_late));
+      row.classList.toggle("selected", vehicle.id === selected);
+    }
+  }
+
+  /// Scrolls the list alone: on a small screen the map must stay where it is.
+  scroll_to({ offsetTop, offsetHeight }) {
+    const { list } = this;
+    const least = offsetTop + offsetHeight - list.clientHeight;
+    list.scrollTop = Math.max(least, Math.min(list.scrollTop, offsetTop));
+  }
+}
+
+/// The report of the selected car in the step shown.
+export class Report {
+  constructor(title, list, run, select) {
+    Object.assign(this, { title, list, run, select, shown: "" });
+  }
+
+  show({ t, selected }) {
+    const vehicle = selected === null ? undefined : this.run.vehicle(selected);
+    const rows = vehicle ? report_rows(this.run, vehicle, t) : [];
+    const k = this.run.step_at(t);
+    const title = vehicle && `Car ${vehicle.id} (${vehicle.name}) in step ${k}`;
+    set_text(this.title, title || "Click on a car to see its report.");
+    const now = JSON.stringify([selected, rows]);
+    if (now === this.shown) return;
+    this.shown = now;
+    this.list.replaceChildren();
+    for (const [name, content] of rows) {
+      const is_text = typeof content === "string";
+      const parts = is_text ? [content] : content.map((id) => this.car_button(id));
+      const value = element("dd", "", { "data-row": name });
+      value.append(...(parts.length ? parts : ["none"]));
+      this.list.append(element("dt", name), value);
+    }
+  }
+
+  car_button(id) {
+    const vehicle = this.run.vehicle(id);
+    if (!vehicle) return element("span", `car ${id} `);
+    const button = element("button", "", { class: "car", title: `show the report of car ${id}` });
+    button.append(badge(this.run, vehicle), ` car ${id}`);
+    button.addEventListener("click", () => this.select(id));
+    return button;
+  }
+}
+
+/// What the processes logged. Lines with a time of the run show it, and lead there.
+export class Log {
+  constructor(list, run, seek) {
+    this.list = list;
+    this.lines = run.log.map((line) => {
+      const { process, level, text, run_s } = line;
+      const row = element("li", "", { class: level });
+      const stamp = run_s === null ? line.stamp.slice(11) : seconds(run_s);
+      row.append(element("time", stamp), element("b", process), element("span", text));
+      if (level !== "info" && level !== "") row.append(element("em", level));
+      if (run_s !== null) row.addEventListener("click", () => seek(run_s));
+      list.append(row);
+      return { row, run_s };
+    });
+    if (this.lines.length === 0) list.append(element("li", "no lines"));
+  }
+
+  /// Marks the lines logged up to t, where that is known.
+  show({ t }) {
+    let last = null;
+    for (const { row, run_s } of this.lines) {
+      if (run_s === null) continue;
+      row.classList.toggle("later", run_s > t);
+      if (run_s <= t) last = row;
+    }
+    if (last === this.last) return;
+    this.last = last;
+    if (last) this.list.scrollTop = last.offsetTop - this.list.clientHeight / 2;
+  }
+}
+
+/// The line about the whole run: what was driven, how it ended.
+export function run_words(about) {
+  const parts = [
+    `${about.vehicles.length} cars`,
+    `profile ${about.profile}`,
+    about.time,
+    about.map ? `map ${about.map}` : "open ground",
+    `subgraph ${about.subgraph}`,
+    `horizon ${about.horizon_steps} steps of ${about.step_s} s`,
+    about.engine,
+    `revision ${about.revision}`,
+  ];
+  if (about.policy !== "none") parts.push(`policy ${about.policy}`);
+  return parts.join(", ");
+}
+
+export function fault_words(about) {
+  const parts = about.died.map(([process, sign]) => `${process}: ${sign}`);
+  parts.unshift(...[about.reason, about.fault].filter(Boolean));
+  if (about.exit_code !== 0) parts.push(`exit code ${about.exit_code}`);
+  return parts.join("; ");
+}

@@ -1,0 +1,138 @@
+// The state of a car in words.
+
+export function ids_text(ids) {
+  return ids.length === 1 ? `car ${ids[0]}` : `cars ${ids.join(", ")}`;
+}
+
+export function seconds(value, digits = 1) {
+  return `${value.toFixed(digits)} s`;
+}
+
+/// Why the car kept its plan, after "keeps its plan: ".
+function reason_words(report) {
+  const coupled = report.coupled.length ? ids_text(report.coupled) : "another car";
+  const words = {
+    infeasible: "no other plan is possible",
+    budget: "the search stopped at its budget before it found one",
+    missing: report.missing.length
+      ? `no message from ${ids_text(report.missing)}`
+      : "messages are missing",
+    conflict: `the new one meets a plan of ${coupled}`,
+    neighbour: `${coupled}, planned with it, fell back`,
+    deviation: "it is too far off the plan, or not seen",
+    late: "a deadline of the step had passed",
+    undrivable: "the new one is beyond what it can follow",
+    off_route: "it cannot get onto its route from here",
+  };
+  return words[report.reason] || report.reason;
+}
+
+/// {kind, words, short}: kind is one of kKinds, short a label for the map, empty: none.
+export function state_of(run, vehicle, t) {
+  const report = run.report_at(vehicle, t);
+  if (!report) return { kind: "silent", words: "no report in this step", short: "no report" };
+  const driven = run.driven_at(vehicle, t);
+  const stands = !driven || Math.abs(driven.speed) < 0.025 /* m/s */;
+  if (report.status === "minimal_risk_stop") {
+    const how = stands ? "stands" : "drives its plan to the end";
+    return { kind: "stop", words: `minimal-risk stop: ${how}`, short: "stop" };
+  }
+  const wait = wait_words(run, report, t);
+  if (report.status === "fallback") {
+    const words = `keeps its plan: ${reason_words(report)}${wait ? `; ${wait}` : ""}`;
+    return { kind: "fallback", words, short: `kept plan: ${report.reason.replace("_", " ")}` };
+  }
+  if (wait) {
+    return { kind: "waits", words: wait, short: `waits for ${report.waits_for.join(", ")}` };
+  }
+  if (report.status === "standby") {
+    const where = report.reason === "off_route" ? ", off every route" : "";
+    return { kind: "standby", words: `stands by for the start${where}`, short: "" };
+  }
+  if (stands) return { kind: "stands", words: "stands", short: "" };
+  return { kind: "drives", words: `drives, ${Math.abs(driven.speed).toFixed(2)} m/s`, short: "" };
+}
+
+function wait_words(run, report, t) {
+  if (report.waits_for.length === 0) return "";
+  const since_s = report.waits_since * run.step_s;
+  const for_s = Math.max(0, t - since_s);
+  const who = ids_text(report.waits_for);
+  return `waits for ${who} since ${seconds(since_s)} (for ${seconds(for_s)})`;
+}
+
+/// Kinds of state, with what the time line's legend calls them.
+export const kKinds = {
+  drives: "drives",
+  stands: "stands",
+  waits: "waits for others",
+  fallback: "keeps its old plan (fallback)",
+  stop: "minimal-risk stop",
+  standby: "standby",
+  silent: "no report",
+};
+
+/// The kind of a whole step, for the time line.
+export function kind_in(run, vehicle, k) {
+  return state_of(run, vehicle, (k + 0.5) * run.step_s).kind;
+}
+
+const kQualities = {
+  none: "no plan was found or searched",
+  optimal: "optimal",
+  budget: "the search stopped early",
+  unproven: "not proven optimal",
+};
+
+function milliseconds(value_s) {
+  return `${(value_s * 1e3).toFixed(2)} ms`;
+}
+
+export function planning_words(run, report) {
+  const late = report.is_late ? `, answer late by ${milliseconds(report.late_s)}` : "";
+  const share = (100 * report.planning_s) / run.step_s;
+  const percent = share.toFixed(share < 1 ? 2 : 0);
+  return `${milliseconds(report.planning_s)}, ${percent} % of the step${late}`;
+}
+
+function millimetres(value_m) {
+  return `${(1e3 * value_m).toFixed(1)} mm`;
+}
+
+function pose_words(pose) {
+  const degrees = Math.round((pose.yaw * 180) / Math.PI);
+  const turn = degrees - 360 * Math.ceil((degrees - 180) / 360);
+  return `x ${pose.x.toFixed(3)} m, y ${pose.y.toFixed(3)} m, ${turn} deg`;
+}
+
+/// Rows of the report of a car at t: [name, text] or [name, ids of other cars].
+export function report_rows(run, vehicle, t) {
+  const report = run.report_at(vehicle, t);
+  const driven = run.driven_at(vehicle, t);
+  const planned = run.planned_at(vehicle, t);
+  const rows = [["state", state_of(run, vehicle, t).words]];
+  if (driven) rows.push(["driven", pose_words(driven)]);
+  if (planned) rows.push(["planned", pose_words(planned)]);
+  if (driven && planned) {
+    const apart_m = Math.hypot(driven.x - planned.x, driven.y - planned.y);
+    rows.push(["difference", millimetres(apart_m)]);
+  }
+  if (!report) return rows;
+  const { status, reason, quality, gap_m2, level } = report;
+  const gap = gap_m2 > 0 ? `, at most ${gap_m2.toFixed(4)} m2 above the optimum` : "";
+  return [
+    ...rows,
+    ["status", reason === "none" ? status : `${status}: ${reason}`],
+    ["waits for", report.waits_for],
+    ["coupled with", report.coupled],
+    ["missing", report.missing],
+    ["maneuver", report.label || "no plan yet"],
+    ["subgraph", report.subgraph],
+    ["plan found", kQualities[quality] + gap],
+    ["cost", quality === "none" ? "none" : `${report.cost_m2.toFixed(4)} m2`],
+    ["planning time", planning_words(run, report)],
+    ["vertices", `${report.generated} generated, ${report.expanded} expanded`],
+    ["level", level === 0 ? "0 (plans first)" : String(level)],
+    ["deviation", `${millimetres(report.deviation_m)} outside the planned footprint`],
+  ];
+}

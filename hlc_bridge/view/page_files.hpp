@@ -1,0 +1,12 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace hlc::view {
+
+/// The files of the folder `page` by name. They are a part of the program (embed.cmake), so that it
+/// finds them wherever it is copied.
+[[nodiscard]] const std::map<std::string, std::string>& page_files();
+
+}  // namespace hlc::view

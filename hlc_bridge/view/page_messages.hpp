@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/result/run_record.hpp"
+#include "planner/road/lanelet_map.hpp"
+
+/// The data of a run for the page (page/model.js), as messages: JSON objects whose `kind` is
+///
+/// * `run`: the scenario, the map's lanes, the vehicles with their routes, names of enumerators;
+///   the first message;
+/// * `maneuvers`: label, poses at equal times and swept area of each, in its own frame; the page
+///   numbers them from 0 in the order in which they arrive;
+/// * `steps`: reports of one vehicle: steps, poses, and in `columns` a column per further field, in
+///   the unit that `units` has for it. `names` and `sets` are tables of texts and of lists of
+///   vehicles, into which columns point. `maneuver` is -1 if it is not known;
+/// * `drive`: states of one vehicle at equal times, without a gap;
+/// * `log`: lines.
+///
+/// Lengths are whole numbers of `unit_m`, angles of `unit_rad`, speeds of 1 mm/s; times count from
+/// t(0) of the run, steps from 0. Columns of positions, angles, speeds and steps, and lines (x and
+/// y in turn), hold the first value and then the differences: few digits. What is not a finite
+/// number, or beyond 10^9 m, is 0.
+namespace hlc::view {
+
+/// A finished run.
+struct FinishedRun {
+  result::RunDescription description;
+  result::RunFacts facts;
+  std::vector<result::StepRecord> rows;  ///< of step_records()
+  result::Drives drives;
+  std::optional<road::LaneletMap> map;  ///< none: open ground
+  std::vector<result::LoggedLine> log;
+  std::string time;      ///< kind of time, as text: "logical time"
+  std::string revision;  ///< of the programs
+  std::string fault;     ///< what was wrong with the drive; empty: nothing
+};
+
+/// All messages of the run as one JSON array. Equal runs give equal bytes. Bytes that are not UTF-8
+/// are replaced.
+[[nodiscard]] std::string page_messages(const FinishedRun& run);
+
+}  // namespace hlc::view

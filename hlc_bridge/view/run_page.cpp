@@ -1,0 +1,64 @@
+#include "hlc_bridge/view/run_page.hpp"
+
+#include <array>
+#include <string_view>
+
+#include "hlc_bridge/view/page_files.hpp"
+#include "planner/common/demand.hpp"
+#include "planner/common/text_file.hpp"
+
+namespace hlc::view {
+namespace {
+
+/// Each after those that it imports.
+constexpr std::array kModules{"model.js", "words.js",    "draw.js", "timeline.js",
+                              "panel.js", "controls.js", "main.js"};
+constexpr std::string_view kExport = "export ";
+
+std::string as_one_script() {
+  std::string script;
+  for (const char* name : kModules) {
+    for (const std::string& line : split(page_files().at(name), '\n')) {
+      if (line.starts_with("import ")) continue;
+      script += line.starts_with(kExport) ? line.substr(kExport.size()) : line;
+      script += '\n';
+    }
+  }
+  return script;
+}
+
+/// @pre the template has the element
+void replace(std::string& page, std::string_view element, const std::string& with) {
+  const std::size_t at = page.find(element);
+  HLC_DEMAND(at != std::string::npos, element);
+  page.replace(at, element.size(), with);
+}
+
+/// The same JSON without `<`, which occurs in its strings only.
+std::string escaped(const std::string& json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string run_page(const FinishedRun& run) {
+  std::string page = page_files().at("run.html");
+  replace(page, R"(<script type="module" src="main.js"></script>)",
+          "<script type=\"module\">\n" + as_one_script() + "</script>");
+  replace(page, R"(<link rel="stylesheet" href="page.css">)",
+          "<style>\n" + page_files().at("page.css") + "</style>");
+  const std::string begin = R"(<script type="application/json" id="data">)";
+  replace(page, begin + "[]", begin + escaped(page_messages(run)));
+  return page;
+}
+
+}  // namespace hlc::view
