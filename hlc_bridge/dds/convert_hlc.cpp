@@ -255,7 +255,8 @@ Incoming<coordination::Prediction> from_wire(const PredictionMessage& wire) {
 
 void to_wire(const coordination::Outcome& message, OutcomeMessage& wire) {
   const auto& [vehicle, step, wants_fallback, digests] = message;
-  const auto& [inputs, plan, is_prediction_published] = digests.value_or(coordination::PlanDigests{});
+  const auto& [inputs, plan, is_prediction_published] =
+      digests.value_or(coordination::PlanDigests{});
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.wants_fallback(wants_fallback);
@@ -273,7 +274,9 @@ Incoming<coordination::Outcome> from_wire(const OutcomeMessage& wire) {
                             .wants_fallback = wire.wants_fallback(),
                             .digests = wire.has_digests() ? std::optional{coordination::PlanDigests{
                                                                 .inputs = wire.inputs_digest(),
-                                                                .plan = wire.plan_digest(), .is_prediction_published = wire.prediction_is_published()}}
+                                                                .plan = wire.plan_digest(),
+                                                                .is_prediction_published =
+                                                                    wire.prediction_is_published()}}
                                                           : std::nullopt});
 }
 

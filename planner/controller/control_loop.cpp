@@ -85,7 +85,7 @@ Awaited ControlLoop::missing_of(MessageKind kind, const std::vector<VehicleId>& 
   return awaited;
 }
 
-/// Who has sent an outcome with digests sends a prediction only if this says so.
+/// Who has sent an outcome with digests sends a prediction only where this states it.
 Awaited ControlLoop::missing_plans_of(MessageKind kind, const std::vector<VehicleId>& from) const {
   Awaited awaited = missing_of<coordination::Prediction>(kind, from);
   const auto& outcomes = std::get<Received<coordination::Outcome>>(received_);

@@ -29,7 +29,8 @@ class JointPlanning {
 
   /// Whether those who make controllers as this one does can plan for the own vehicle from this
   /// traffic of it. Not if its subgraph has been changed, or while it is not seen.
-  [[nodiscard]] bool can_be_planned_for(const Controller& own, const coordination::Traffic& traffic);
+  [[nodiscard]] bool can_be_planned_for(const Controller& own,
+                                        const coordination::Traffic& traffic);
 
   /// The vehicles of the component that cannot be planned for: those that have not published a
   /// planning input, or one on another basis than this controller knows of them. The same in all

@@ -29,8 +29,7 @@ void TwoRounds::choose(const Controller& own) {
   computed_ = {};
   not_shared_.clear();
   if (!shares()) return;
-  not_shared_ =
-      is_offered_ ? joint_.prepare(own) : std::vector<VehicleId>{own.options().vehicle};
+  not_shared_ = is_offered_ ? joint_.prepare(own) : std::vector<VehicleId>{own.options().vehicle};
   is_chosen_ = not_shared_.empty();
 }
 

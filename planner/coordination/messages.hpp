@@ -74,8 +74,8 @@ struct Prediction {
 
 /// With two rounds: what the sender planned from.
 struct PlanDigests {
-  std::uint64_t inputs{};  ///< of all traffic that it planned from, its own included
-  std::uint64_t plan{};    ///< of the prediction that it has computed for itself
+  std::uint64_t inputs{};          ///< of all traffic that it planned from, its own included
+  std::uint64_t plan{};            ///< of the prediction that it has computed for itself
   bool is_prediction_published{};  ///< for receivers that could not compute it
   friend bool operator==(const PlanDigests&, const PlanDigests&) = default;
 };

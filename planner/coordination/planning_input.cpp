@@ -36,8 +36,8 @@ bool is_sane(const DrivableAreaState::Widened& widened) {
 }
 
 bool is_sane(const PlanByIndex& plan, StepIndex step) {
-  return plan.first.value + 1 >= step.value && plan.first <= step && plan.poses.size() == plan.maneuvers.size() + 1 &&
-         plan.poses.size() <= kMostPoses &&
+  return plan.first.value + 1 >= step.value && plan.first <= step &&
+         plan.poses.size() == plan.maneuvers.size() + 1 && plan.poses.size() <= kMostPoses &&
          std::ranges::all_of(plan.poses, [](const Pose& pose) { return is_sane(pose); });
 }
 

@@ -481,7 +481,9 @@ coordination::Prediction sample(Random& random) {
 template <>
 coordination::Outcome sample(Random& random) {
   coordination::Outcome outcome{vehicle(random), {random()}, coin(random)};
-  if (coin(random)) outcome.digests = {.inputs = random(), .plan = random(), .is_prediction_published = coin(random)};
+  if (coin(random))
+    outcome.digests = {
+        .inputs = random(), .plan = random(), .is_prediction_published = coin(random)};
   return outcome;
 }
 

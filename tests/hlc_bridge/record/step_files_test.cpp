@@ -96,7 +96,8 @@ TEST(StepFiles, NamesOfAnyKindReadBack) {
 
 TEST(StepFiles, TimingHoldsTheClock) {
   const std::vector<result::StepRecord> rows{row()};
-  EXPECT_EQ(timing_csv(rows), "step,id,planning_ms,deadline_missed,late_ms,response_ms\n3,2,1.5,1,0.25,31.5\n");
+  EXPECT_EQ(timing_csv(rows),
+            "step,id,planning_ms,deadline_missed,late_ms,response_ms\n3,2,1.5,1,0.25,31.5\n");
 }
 
 }  // namespace

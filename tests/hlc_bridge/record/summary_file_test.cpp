@@ -40,12 +40,13 @@ result::RunSummary some_summary() {
 
 TEST(SummaryFile, HasTheAgreedKeysInOrder) {
   const auto json = nlohmann::ordered_json::parse(summary_json(some_summary()));
-  EXPECT_THAT(keys(json),
-              ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps",
-                          "step_s", "steps", "vehicles", "generated_vertices_sum_max",
-                          "min_footprint_distance_m", "collisions", "wall_s", "realtime_factor", "response_time_ms",
-                          "trace_sha256", "revision", "host", "engine", "expanded_vertices_sum_max",
-                          "policy", "longest_wait_s", "stuck_vehicles"));
+  EXPECT_THAT(
+      keys(json),
+      ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps", "step_s",
+                  "steps", "vehicles", "generated_vertices_sum_max", "min_footprint_distance_m",
+                  "collisions", "wall_s", "realtime_factor", "response_time_ms", "trace_sha256",
+                  "revision", "host", "engine", "expanded_vertices_sum_max", "policy",
+                  "longest_wait_s", "stuck_vehicles"));
   const auto& vehicle = json["vehicles"][0];
   EXPECT_THAT(keys(vehicle), ElementsAre("id", "name", "lap_s", "reference_error_mm",
                                          "tracking_error_mm", "generated_vertices",

@@ -194,9 +194,10 @@ TEST_F(TwoRoundsTest, PublishTheirPredictionTooIfTheyMissAVehicle) {
 
 /// Of cars 1 that plan by another rule, and of usual cars 2.
 std::unique_ptr<Controller> other_car_1(VehicleId id) {
-  return car(id.value,
-             id.value == 1 ? ControllerStrategies{.incumbent = &no_incumbent} : ControllerStrategies{},
-             {});
+  return car(
+      id.value,
+      id.value == 1 ? ControllerStrategies{.incumbent = &no_incumbent} : ControllerStrategies{},
+      {});
 }
 std::unique_ptr<Controller> usual_car(VehicleId id) { return car(id.value, {}, {}); }
 

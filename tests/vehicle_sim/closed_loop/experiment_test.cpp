@@ -120,7 +120,8 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, TwoRounds,
                                          RoundsCase{"circle", 6, {}, 60},
                                          RoundsCase{"paper_three_cars", {}, 2, 60, 0.09}),
                          [](const auto& tested) {
-                           return tested.param.scenario + (tested.param.left_m > 0.0 ? "_beside" : "");
+                           return tested.param.scenario +
+                                  (tested.param.left_m > 0.0 ? "_beside" : "");
                          });
 
 // Six cars on their way across a circle, and nobody makes room: 4, 5 and 6 get through, 1, 2 and 3
