@@ -79,7 +79,7 @@ bool Network::add_machine(int i) const {
 
 LabOverNetwork::LabOverNetwork(const Network& network, int steps, const std::string& discovery,
                                bool names_peers)
-    : RunProcesses({.file = kScenario}) {
+    : RunProcesses(scenario::read_scenario({.file = kScenario})) {
   const auto run = [&](int machine, const std::string& program, const std::string& flags,
                        const std::filesystem::path& out) {
     std::string command = program + flags + discovery;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "tests/support/folders.hpp"
 #include "tests/support/own_shared_memory.hpp"
@@ -10,7 +11,6 @@ namespace hlc::test {
 namespace {
 
 const std::string kBin = test::build_folder() + "/bin/";
-constexpr int kLargestVehicles = 4;
 
 std::string number(double value) {
   char text[32];
@@ -39,11 +39,23 @@ std::vector<std::string> scenario_flags(const scenario::ScenarioChoices& choices
   return flags;
 }
 
+/// The lab's, and one for every middleware: the lab's + the id of its vehicle.
+int num_domains(const scenario::Scenario& scenario) {
+  int largest = 0;
+  for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
+    largest = std::max<int>(largest, vehicle.id.value);
+  }
+  return 1 + largest;
+}
+
 }  // namespace
 
 LabProcesses::LabProcesses(const LabOptions& options)
-    : DomainReservation(1 + kLargestVehicles),
-      RunProcesses(choices_of(options)),
+    : LabProcesses(options, scenario::read_scenario(choices_of(options))) {}
+
+LabProcesses::LabProcesses(const LabOptions& options, scenario::Scenario given)
+    : DomainReservation(num_domains(given)),
+      RunProcesses(std::move(given)),
       scenario_flags_(scenario_flags(choices_of(options))) {
   if (options.transport == "lab") static_cast<void>(use_own_shared_memory());
   const int lab = lab_domain();

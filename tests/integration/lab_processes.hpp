@@ -45,6 +45,8 @@ class LabProcesses : private DomainReservation, public RunProcesses {
   [[nodiscard]] int lab_domain() const { return first(); }
 
  private:
+  LabProcesses(const LabOptions& options, scenario::Scenario given);
+
   std::map<std::string, std::vector<std::string>> commands_;
   std::vector<std::string> scenario_flags_;
 };

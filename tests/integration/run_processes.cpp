@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/report_file.hpp"
@@ -23,8 +24,8 @@ std::filesystem::path new_run_folder() {
 
 }  // namespace
 
-RunProcesses::RunProcesses(const scenario::ScenarioChoices& choices)
-    : scenario_(scenario::read_scenario(choices)), folder_(new_run_folder()) {}
+RunProcesses::RunProcesses(scenario::Scenario scenario)
+    : scenario_(std::move(scenario)), folder_(new_run_folder()) {}
 
 RunProcesses::~RunProcesses() {
   running_.clear();

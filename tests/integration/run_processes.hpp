@@ -42,7 +42,7 @@ class RunProcesses {
   [[nodiscard]] Commands commands() const;
 
  protected:
-  explicit RunProcesses(const scenario::ScenarioChoices& choices);
+  explicit RunProcesses(scenario::Scenario scenario);
   /// Keeps the folder if the test has failed, or if `keep_folder` was called.
   ~RunProcesses();
 

@@ -1,6 +1,9 @@
 // Whole runs with real processes in logical time.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -156,6 +159,20 @@ TEST(Run, InTwoRoundsCarsDriveAsTheyDoOneAfterTheOther) {
   for (int id = 1; id <= 5; ++id) {
     EXPECT_THAT(two.log("high_level_controller_" + std::to_string(id)),
                 testing::Not(testing::HasSubstr("one after the other")));
+  }
+}
+
+// The middleware of the fifth car used to be in the first domain of another test, and its end ended
+// that test's processes.
+TEST(Run, EveryDomainOfALabIsReserved) {
+  const LabProcesses lab({.scenario = "lab_cars", .cars = 20});
+  const int last = lab.lab_domain() + 20;
+  for (int domain = lab.lab_domain(); domain <= last; ++domain) {
+    const std::string file = "/tmp/hlc_dds_domain_" + std::to_string(domain) + ".lock";
+    const int lock = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    EXPECT_GE(lock, 0) << file;
+    EXPECT_NE(flock(lock, LOCK_EX | LOCK_NB), 0) << file << " is free";
+    close(lock);
   }
 }
 
