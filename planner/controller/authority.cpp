@@ -51,32 +51,38 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
             .ahead_m = std::max({gives_back ? 0.0 : held_m, plans_m, 0.0}),
             .waiting_steps = stands && !gives_back ? claim_.waiting_steps + 1 : 0};
   has_place_ = true;
+  granted_.clear();
   holders_.clear();
   is_limited_ = false;
 }
 
 void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
-                       std::span<const VehicleId> silent,
+                       std::span<const VehicleId> missing,
                        std::span<const right_of_way::Blocked> blocked, double step_m,
                        SharedStep& shared) {
-  std::vector<right_of_way::Holder> holders{{own, claim_}};
+  std::vector<right_of_way::Holder> received{{own, claim_}};
   for (const coordination::Traffic* other : others) {
-    known_[other->vehicle] = other->claim.value();
-    holders.push_back({other->vehicle, *other->claim});
+    received.push_back({other->vehicle, *other->claim});
+    known_[other->vehicle] = {.last = received.back()};
   }
-  for (const VehicleId other : silent) {
-    coordination::LaneClaim& claim = known_.at(other);
-    claim.ahead_m = std::max(claim.ahead_m, kLookAhead_m) + step_m;
-    holders.push_back({other, claim});
+  std::vector<right_of_way::Missing> assumed;
+  granted_ = received;
+  for (const VehicleId other : missing) {
+    right_of_way::Missing& one = known_.at(other);
+    one.moved_m += step_m;
+    assumed.push_back(one);
+    granted_.push_back(one.last);
   }
-  std::ranges::sort(holders, {}, &right_of_way::Holder::vehicle);  // as every other vehicle does
-  const std::vector<double>& ahead_m = shared.granted(*map_, holders, blocked, kLookAhead_m);
-  for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
+  std::ranges::sort(granted_, {}, &right_of_way::Holder::vehicle);  // as every other vehicle does
+  const std::vector<double>& ahead_m = shared.granted(*map_, granted_, blocked, kLookAhead_m);
+  for (std::size_t i = 0; i < granted_.size(); ++i) granted_[i].claim.ahead_m = ahead_m[i];
+  holders_ = assumed.empty() ? granted_
+                             : right_of_way::cautious_grant(*map_, received, assumed, blocked,
+                                                            kLookAhead_m, own);
   own_place_ = static_cast<std::size_t>(
-      std::ranges::find(holders, own, &right_of_way::Holder::vehicle) - holders.begin());
-  claim_.ahead_m = ahead_m[own_place_];
+      std::ranges::find(holders_, own, &right_of_way::Holder::vehicle) - holders_.begin());
+  claim_.ahead_m = holders_[own_place_].claim.ahead_m;
   is_limited_ = claim_.ahead_m + map_->cell_m(claim_.route) <= kLookAhead_m;
-  holders_ = std::move(holders);
   blocked_.assign(blocked.begin(), blocked.end());
 }
 
@@ -90,8 +96,8 @@ void Authority::resume(const coordination::LaneClaim& claim, VehicleId vehicle,
   claim_ = claim;
   is_limited_ = false;
   const auto granted =
-      std::ranges::find(receiver.holders_, vehicle, &right_of_way::Holder::vehicle);
-  if (granted != receiver.holders_.end()) claim_.ahead_m = granted->claim.ahead_m;
+      std::ranges::find(receiver.granted_, vehicle, &right_of_way::Holder::vehicle);
+  if (granted != receiver.granted_.end()) claim_.ahead_m = granted->claim.ahead_m;
 }
 
 double Authority::end_s_m(double s_m) const {

@@ -45,15 +45,14 @@ class Authority {
   /// Whether a claim of the vehicle has ever been received.
   [[nodiscard]] bool knows(VehicleId vehicle) const { return known_.contains(vehicle); }
 
-  /// Takes what is granted to this vehicle, given what all others hold. A silent vehicle is
-  /// assumed to hold a look-ahead, and in each step of silence the length of a step more: less than
-  /// it may, if it has been granted a stretch that ends farther on.
+  /// Takes what is granted to this vehicle, given what all others hold; if some are missing, only
+  /// what nobody else can take (right_of_way::cautious_grant).
   /// @param others     of which a claim on the same map has been received in this step
-  /// @param silent     known vehicles that were not received in this step
+  /// @param missing    known vehicles that were not received in this step
   /// @param blocked    areas of others that hold nothing, those of one vehicle together
   /// @param step_m     the longest way of a vehicle in a step
   void extend(VehicleId own, std::span<const coordination::Traffic* const> others,
-              std::span<const VehicleId> silent, std::span<const right_of_way::Blocked> blocked,
+              std::span<const VehicleId> missing, std::span<const right_of_way::Blocked> blocked,
               double step_m, SharedStep& shared);
 
   /// The authority of another vehicle with this claim in its traffic, after the grants of
@@ -72,12 +71,14 @@ class Authority {
  private:
   std::shared_ptr<const right_of_way::ConflictMap> map_;
   coordination::LaneClaim claim_;
-  /// After `extend`: what all hold and block, and which holder the vehicle is.
+  /// After `extend`: what all hold at the end of the step, as `grant` says; what limits this
+  /// vehicle, itself included.
+  std::vector<right_of_way::Holder> granted_;
   std::vector<right_of_way::Holder> holders_;
   std::vector<right_of_way::Blocked> blocked_;
   std::size_t own_place_{};
   bool is_limited_{};                                   ///< the end limits planning
-  std::map<VehicleId, coordination::LaneClaim> known_;  ///< the last of each other vehicle
+  std::map<VehicleId, right_of_way::Missing> known_;    ///< each other vehicle, as last received
   std::uint32_t unused_steps_{};  ///< for which it has stood with road in front of it
   bool has_place_{};
 };

@@ -49,13 +49,13 @@ void Controller::extend_authority(SharedStep& shared) {
   if (!authority_) return;
   const automaton::UniversalAutomaton& automaton = subgraph().automaton();
   std::vector<right_of_way::Blocked> blocked;
-  std::vector<VehicleId> silent;
+  std::vector<VehicleId> missing;
   for (const VehicleId other : neighbours_.missing()) {
     const coordination::MeasuredVehicle* const measured = step_.observation.measured(other);
     if (measured != nullptr && neighbours_.stands_for_good(other, options_.horizon_steps)) {
       blocked.push_back({other, coordination::standing_area(*measured, neighbours_.rules())});
     } else if (authority_->knows(other)) {
-      silent.push_back(other);
+      missing.push_back(other);
     } else if (measured != nullptr) {
       const double horizon_s = static_cast<double>(options_.horizon_steps + 1) * automaton.step_s;
       blocked.push_back(
@@ -75,7 +75,7 @@ void Controller::extend_authority(SharedStep& shared) {
     }
     blocked.push_back({traffic->vehicle, traffic->running.final_area_m});
   }
-  authority_->extend(options_.vehicle, holders, silent, blocked,
+  authority_->extend(options_.vehicle, holders, missing, blocked,
                      neighbours_.rules().max_speed_mps * automaton.step_s, shared);
 }
 

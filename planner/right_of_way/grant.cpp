@@ -20,17 +20,34 @@ class Grants {
   }
 
   void extend(std::size_t who, double look_ahead_m) {
-    count(who, -1);  // its own are free for it
-    const coordination::LaneClaim& claim = holders_[who].claim;
-    const double cell_m = map_.cell_m(claim.route);
-    for (;;) {
-      const CellNumber next = last_of(who) + 1;
-      if (static_cast<double>(next) * cell_m > claim.place_m + look_ahead_m) break;
-      const std::optional<CellNumber> end = end_of_stretch(who, next);
-      if (!end) break;
-      ahead_m_[who] = static_cast<double>(*end) * cell_m - claim.place_m;
-    }
+    const double end_m = reach_m(who, look_ahead_m);
+    count(who, -1);
+    ahead_m_[who] = end_m;
     count(who, 1);
+  }
+
+  /// How far the authority of a holder reaches if it is extended, and nobody else's.
+  [[nodiscard]] double reach_m(std::size_t who, double look_ahead_m) {
+    count(who, -1);  // its own are free for it
+    coordination::LaneClaim claim = holders_[who].claim;
+    claim.ahead_m = ahead_m_[who];
+    const double end_m = reach_m(claim, look_ahead_m);
+    count(who, 1);
+    return end_m;
+  }
+
+  /// The same of a claim that is none of the holders'.
+  [[nodiscard]] double reach_m(const coordination::LaneClaim& claim, double look_ahead_m) const {
+    const double cell_m = map_.cell_m(claim.route);
+    double ahead_m = claim.ahead_m;
+    for (;;) {
+      const CellNumber next = map_.count_at(claim.route, claim.place_m + ahead_m) + 1;
+      if (static_cast<double>(next) * cell_m > claim.place_m + look_ahead_m) break;
+      const std::optional<CellNumber> end = end_of_stretch(claim.route, next);
+      if (!end) break;
+      ahead_m = static_cast<double>(*end) * cell_m - claim.place_m;
+    }
+    return ahead_m;
   }
 
   [[nodiscard]] const std::vector<double>& ahead_m() const { return ahead_m_; }
@@ -95,8 +112,8 @@ class Grants {
   }
 
   /// The cell where a stretch that begins with `first` ends, if all of it is free.
-  [[nodiscard]] std::optional<CellNumber> end_of_stretch(std::size_t who, CellNumber first) const {
-    const std::size_t route = holders_[who].claim.route;
+  [[nodiscard]] std::optional<CellNumber> end_of_stretch(std::size_t route,
+                                                         CellNumber first) const {
     const auto whole_route = static_cast<CellNumber>(map_.num_cells(route));
     for (CellNumber cell = first; cell < first + whole_route; ++cell) {
       if (!is_free(route, map_.index_of(route, cell))) return std::nullopt;
@@ -139,6 +156,28 @@ std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holder
   Grants grants(map, holders, blocked);
   for (const std::size_t who : order) grants.extend(who, look_ahead_m);
   return grants.ahead_m();
+}
+
+std::vector<Holder> cautious_grant(const ConflictMap& map, std::span<const Holder> holders,
+                                   std::span<const Missing> missing,
+                                   std::span<const Blocked> blocked, double look_ahead_m,
+                                   VehicleId own) {
+  // What blocks is not the same for all, so nothing blocks the others here.
+  Grants held(map, holders, {});
+  std::vector<Holder> reached(holders.begin(), holders.end());
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    if (reached[i].vehicle != own) reached[i].claim.ahead_m = held.reach_m(i, look_ahead_m);
+  }
+  for (const Missing& one : missing) {
+    Holder& last = reached.emplace_back(one.last);
+    last.claim.ahead_m = std::max(last.claim.ahead_m, one.moved_m);
+    last.claim.ahead_m = held.reach_m(last.claim, look_ahead_m + one.moved_m);
+  }
+  const auto who = static_cast<std::size_t>(
+      std::ranges::find(reached, own, &Holder::vehicle) - reached.begin());
+  Grants free(map, reached, blocked);
+  reached[who].claim.ahead_m = free.reach_m(who, look_ahead_m);
+  return reached;
 }
 
 std::vector<VehicleId> withheld_by(const ConflictMap& map, std::span<const Holder> holders,

@@ -34,14 +34,37 @@ struct Blocked {
 /// present place, not where it is going to be.
 ///
 /// A pure function of what all vehicles announced: controllers that received the same compute the
-/// same, without a further message. It never takes a cell from a vehicle. Two controllers that
-/// received different messages may take the same cell.
+/// same, without a further message. It never takes a cell from a vehicle. A controller that has not
+/// received all of them must not take what is granted here (cautious_grant).
 ///
 /// What this is for: no authority ends in a cell that a vehicle of another lane needs. A vehicle
 /// that is held up on its way may still stop in one. That no state without a way on is reached is
 /// measured, not proven: vehicles may still wait for each other around a circle of full lanes.
 [[nodiscard]] std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holders,
                                         std::span<const Blocked> blocked, double look_ahead_m);
+
+/// A vehicle of which nothing has been received in this step.
+struct Missing {
+  Holder last;       ///< as it was last received
+  double moved_m{};  ///< the longest way that it can have driven since then
+};
+
+/// The holders, the missing ones among them, with all that each can hold at the end of this step,
+/// whatever it has received; for the vehicle `own`, with what it takes if it has not received all:
+/// cells that no other vehicle can take in this step.
+///
+/// So no two vehicles ever hold overlapping cells, whatever is lost. Assume that none do at the
+/// beginning of a step. Whoever has received all takes what `grant` says, which is the same for all
+/// of them, and without overlap; and none of it reaches beyond what this function assumes for that
+/// vehicle: all that is free of the cells that are held now. Whoever has not received all takes
+/// nothing of that, for any vehicle. A missing vehicle holds and takes no more than is assumed
+/// here, as those who are received keep all others away from the cells that they hold.
+/// @pre `own` is one of `holders`, none of `missing`
+[[nodiscard]] std::vector<Holder> cautious_grant(const ConflictMap& map,
+                                                 std::span<const Holder> holders,
+                                                 std::span<const Missing> missing,
+                                                 std::span<const Blocked> blocked,
+                                                 double look_ahead_m, VehicleId own);
 
 /// The vehicles that hold or block cells of what would be granted next to the vehicle with this
 /// index, in the order of `holders`, then of `blocked`.
