@@ -77,8 +77,8 @@ class Authority {
   std::vector<right_of_way::Holder> holders_;
   std::vector<right_of_way::Blocked> blocked_;
   std::size_t own_place_{};
-  bool is_limited_{};                                   ///< the end limits planning
-  std::map<VehicleId, right_of_way::Missing> known_;    ///< each other vehicle, as last received
+  bool is_limited_{};                                 ///< the end limits planning
+  std::map<VehicleId, right_of_way::Missing> known_;  ///< each other vehicle, as last received
   std::uint32_t unused_steps_{};  ///< for which it has stood with road in front of it
   bool has_place_{};
 };

@@ -173,8 +173,8 @@ std::vector<Holder> cautious_grant(const ConflictMap& map, std::span<const Holde
     last.claim.ahead_m = std::max(last.claim.ahead_m, one.moved_m);
     last.claim.ahead_m = held.reach_m(last.claim, look_ahead_m + one.moved_m);
   }
-  const auto who = static_cast<std::size_t>(
-      std::ranges::find(reached, own, &Holder::vehicle) - reached.begin());
+  const auto who =
+      static_cast<std::size_t>(std::ranges::find(reached, own, &Holder::vehicle) - reached.begin());
   Grants free(map, reached, blocked);
   reached[who].claim.ahead_m = free.reach_m(who, look_ahead_m);
   return reached;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <random>
@@ -13,6 +15,7 @@
 #include "planner/right_of_way/grant.hpp"
 #include "planner/scenario/starts.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
+#include "tests/planner/right_of_way/held_cells.hpp"
 #include "tests/planner/right_of_way/routes.hpp"
 #include "tests/support/num_seeds.hpp"
 
@@ -66,12 +69,12 @@ class AuthorityTest : public testing::Test {
   void begin_step(const coordination::Plan& plan, std::uint64_t step) {
     authority_.begin_step(plan, {step}, ring_.tracker, kReach_m);
   }
-  void extend(const std::vector<Traffic>& others, const std::vector<VehicleId>& silent = {},
+  void extend(const std::vector<Traffic>& others, const std::vector<VehicleId>& missing = {},
               double step_m = 0.0) {
     std::vector<const Traffic*> pointers;
     for (const Traffic& other : others) pointers.push_back(&other);
     SharedStep shared;
-    authority_.extend({1}, pointers, silent, {}, step_m, shared);
+    authority_.extend({1}, pointers, missing, {}, step_m, shared);
   }
   [[nodiscard]] double end_m() const {
     return authority_.claim().place_m + authority_.claim().ahead_m;
@@ -229,17 +232,23 @@ TEST_F(AuthorityTest, OnlyWhoHoldsWhatIsWantedNextWithholdsIt) {
   EXPECT_TRUE(authority_.withheld_by().empty()) << "the next cell, which it holds, is too far away";
 }
 
-TEST_F(AuthorityTest, ASilentVehicleIsAssumedToHoldWhatItMayHaveTaken) {
-  for (const double step_m : {0.1, 1.6}) {
-    authority_ = Authority(ring_.map);
-    begin_step(ring_.standing(1.0), 1);
-    extend({Ring::other_at(2, ring_.path().length_m() - 0.5)});
-    EXPECT_TRUE(authority_.knows({2}));
-    EXPECT_NEAR(end_m(), 1.0 + kLookAhead_m, 0.04);
-    begin_step(ring_.standing(1.5), 2);
-    extend({}, {{2}}, step_m);
-    // With 1.6 m it reaches beyond the end: nothing is taken.
-    EXPECT_NEAR(end_m(), (step_m < 1.0 ? 1.5 : 1.0) + kLookAhead_m, 0.04) << step_m;
+TEST(AuthorityOnACrossing, AMissingVehicleIsAssumedToTakeWhatItCanReach) {
+  for (const double step_m : {0.1, 0.5}) {
+    const Ring at_zero(right_of_way::figure_eight());
+    const double length_m = at_zero.path().length_m();
+    const Ring eight(right_of_way::figure_eight(), length_m - 0.6);
+    const coordination::Plan plan = eight.standing(length_m - 0.6);
+    const Traffic other = Ring::other_at(2, length_m / 2.0 - 1.6);
+    const Traffic on_crossing = Ring::other_at(3, 0.0);
+    const Traffic beyond = Ring::other_at(3, 1.5);
+    Authority authority(eight.map);
+    SharedStep shared;
+    authority.begin_step(plan, {1}, eight.tracker, kReach_m);
+    authority.extend({1}, std::array{&other, &on_crossing}, {}, {}, step_m, shared);
+    EXPECT_LT(authority.claim().ahead_m, 0.6);
+    authority.begin_step(plan, {2}, eight.tracker, kReach_m);
+    authority.extend({1}, std::array{&beyond}, std::array{other.vehicle}, {}, step_m, shared);
+    EXPECT_EQ(authority.claim().ahead_m > 0.6, step_m < 0.5) << step_m;
   }
 }
 
@@ -350,7 +359,10 @@ class GrantedRun {
     }
   }
 
-  void step(std::uint64_t step) {
+  /// Returns what all hold as the step begins.
+  /// @param is_lost  of the messages; may be absent
+  std::vector<right_of_way::Holder> drive(
+      std::uint64_t step, const std::function<bool(const Delivery&)>& is_lost = {}) {
     Observation observation{.step = {step}};
     std::vector<Controller*> controllers;
     for (const auto& one : controllers_) {
@@ -360,10 +372,16 @@ class GrantedRun {
     }
     observation.present = observation.active;
     std::vector<right_of_way::Holder> holders;
-    static_cast<void>(joint_step(controllers, observation,
-                                 {.on_traffic = [&](const Controller&, const Traffic& traffic) {
-                                   holders.push_back({traffic.vehicle, traffic.claim.value()});
-                                 }}));
+    static_cast<void>(joint_step(
+        controllers, observation,
+        {.is_lost = is_lost, .on_traffic = [&](const Controller&, const Traffic& traffic) {
+           holders.push_back({traffic.vehicle, traffic.claim.value()});
+         }}));
+    return holders;
+  }
+
+  void step(std::uint64_t step) {
+    const std::vector<right_of_way::Holder> holders = drive(step);
     const std::vector<double> ahead_m = right_of_way::grant(map_, holders, {}, kLookAhead_m);
     for (std::size_t i = 0; i < holders.size(); ++i) check(i, holders[i].claim, ahead_m[i]);
   }
@@ -408,6 +426,30 @@ TEST(AuthorityInTheLab, NoPlanInForceEndsBeyondTheAuthority) {
     limited_plans += run.limited_plans();
   }
   EXPECT_GT(limited_plans, 20U) << "no authority ever limited a plan";
+}
+
+TEST(AuthorityInTheLab, NoTwoVehiclesHoldTheSameRoadWhateverIsLost) {
+  const scenario::Scenario few = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 10});
+  for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(2); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const scenario::Scenario drawn = scenario::with_random_starts(few, seed);
+    std::mt19937_64 random(seed);
+    const auto is_lost = [&](const Delivery&) { return std::bernoulli_distribution(0.1)(random); };
+    GrantedRun run(drawn);
+    std::map<VehicleId, double> held_m;
+    for (std::uint64_t step = 1; step <= 40; ++step) {
+      const std::vector<right_of_way::Holder> holders = run.drive(step, is_lost);
+      for (std::size_t i = 0; i < holders.size(); ++i) {
+        held_m[holders[i].vehicle] += holders[i].claim.ahead_m;
+        for (std::size_t j = 0; j < i; ++j) {
+          ASSERT_FALSE(hold_overlapping_cells(*drawn.conflicts, holders[i], holders[j]))
+              << "step " << step << ": " << i << ' ' << j;
+        }
+      }
+    }
+    for (const auto& [vehicle, sum_m] : held_m) EXPECT_GT(sum_m, 40 * 0.3) << vehicle.value;
+  }
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "planner/scenario/starts.hpp"
+#include "tests/planner/right_of_way/held_cells.hpp"
 #include "tests/planner/right_of_way/routes.hpp"
 #include "tests/support/num_seeds.hpp"
 
@@ -17,36 +18,6 @@ namespace hlc::right_of_way {
 namespace {
 
 constexpr double kLookAhead_m = 1.6;
-
-std::int64_t cell_at(const ConflictMap& map, std::size_t route, double s_m) {
-  return std::llround(s_m / map.cell_m(route));
-}
-
-std::size_t on_route(const ConflictMap& map, std::size_t route, std::int64_t cell) {
-  const auto count = static_cast<std::int64_t>(map.num_cells(route));
-  return static_cast<std::size_t>((cell % count + count) % count);
-}
-
-/// From `from_m` to `to_m` ahead of the place, both included.
-std::vector<std::size_t> cells_of(const ConflictMap& map, const Holder& holder, double from_m,
-                                  double to_m) {
-  const std::size_t route = holder.claim.route;
-  std::vector<std::size_t> cells;
-  for (std::int64_t cell = cell_at(map, route, holder.claim.place_m + from_m);
-       cell <= cell_at(map, route, holder.claim.place_m + to_m); ++cell) {
-    cells.push_back(on_route(map, route, cell));
-  }
-  return cells;
-}
-
-bool hold_overlapping_cells(const ConflictMap& map, const Holder& a, const Holder& b) {
-  const std::vector<std::size_t> others = cells_of(map, b, 0.0, b.claim.ahead_m);
-  return std::ranges::any_of(cells_of(map, a, 0.0, a.claim.ahead_m), [&](std::size_t i) {
-    return std::ranges::any_of(others, [&](std::size_t j) {
-      return std::ranges::binary_search(map.overlaps(a.claim.route, i), map.cell(b.claim.route, j));
-    });
-  });
-}
 
 bool ends_in_conflict(const ConflictMap& map, const Holder& holder) {
   const std::size_t route = holder.claim.route;
@@ -310,7 +281,8 @@ class RandomTraffic {
       std::vector<Holder> received;
       std::vector<Missing> missing;
       for (const Holder& other : holders_) {
-        const bool is_received = other.vehicle == own.vehicle || is_delivered(other, own, share_lost);
+        const bool is_received =
+            other.vehicle == own.vehicle || is_delivered(other, own, share_lost);
         Missing& known = known_.try_emplace({own.vehicle, other.vehicle}, other).first->second;
         if (is_received) {
           known = {.last = other};
@@ -338,9 +310,8 @@ class RandomTraffic {
     std::uint32_t longest = 0;
     for (std::size_t i = 0; i < holders_.size(); ++i) {
       coordination::LaneClaim& claim = holders_[i].claim;
-      const double moved_m =
-          std::min(claim.ahead_m,
-                   std::uniform_real_distribution(shortest_step_m, kLongestStep_m)(random_));
+      const double moved_m = std::min(
+          claim.ahead_m, std::uniform_real_distribution(shortest_step_m, kLongestStep_m)(random_));
       claim.place_m = std::fmod(claim.place_m + moved_m, map_.length_m(claim.route));
       claim.ahead_m -= moved_m;
       claim.waiting_steps = moved_m < 0.002 ? claim.waiting_steps + 1 : 0;
@@ -375,7 +346,8 @@ TEST(CautiousGrant, NoTwoVehiclesHoldOverlappingCellsWhateverIsLost) {
     RandomTraffic traffic(drawn, seed);
     for (int step = 0; step < 150; ++step) {
       // Few losses, so that in many steps some have received all and others have not.
-      num_cautious += traffic.step_with_losses(step % 2 == 0 ? 0.005 : 0.1, seed % 2 == 0 ? 0.1 : 0.01);
+      num_cautious +=
+          traffic.step_with_losses(step % 2 == 0 ? 0.005 : 0.1, seed % 2 == 0 ? 0.1 : 0.01);
       for (std::size_t i = 0; i < traffic.holders().size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
           ASSERT_FALSE(
