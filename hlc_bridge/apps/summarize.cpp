@@ -70,7 +70,8 @@ bool write_page(const std::filesystem::path& run, const hlc::scenario::Scenario&
   }
 }
 
-/// The page of an earlier summary may show another result. @throws std::filesystem::filesystem_error
+/// The page of an earlier summary may show another result. @throws
+/// std::filesystem::filesystem_error
 void remove_old_page(const std::filesystem::path& run) {
   if (std::filesystem::is_regular_file(page_file(run))) std::filesystem::remove(page_file(run));
 }

@@ -136,7 +136,8 @@ scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
 RunChoices choices_of_run(const fs::path& run_folder, const RunChoices& given) {
   if (!fs::exists(flags_file(run_folder)) && !given.scenario.file.empty()) {
     RunChoices choices = given;
-    if (choices.scenario.profile.empty()) choices.scenario.profile = scenario::ScenarioChoices{}.profile;
+    if (choices.scenario.profile.empty())
+      choices.scenario.profile = scenario::ScenarioChoices{}.profile;
     return choices;
   }
   RunChoices choices{.scenario = kept_choices(run_folder), .noise_seed = given.noise_seed};

@@ -180,9 +180,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--lab_network", choices.campaign.on_lab_network,
                "cars with right of way on the roads of lab_cars in all runs");
-  app.add_flag("--two_rounds", choices.campaign.has_two_rounds,
-               "cars compute each other's plans (rounds: two); in half of the runs one does not take "
-               "part, plans by other rules or computes other bits");
+  app.add_flag(
+      "--two_rounds", choices.campaign.has_two_rounds,
+      "cars compute each other's plans (rounds: two); in half of the runs one does not take "
+      "part, plans by other rules or computes other bits");
   app.add_option("--runs", choices.runs, "number of runs")
       ->check(hlc::apps::whole(1, kLargestSeed))
       ->capture_default_str();

@@ -76,7 +76,7 @@ export const kKinds = {
   standby: "standby",
   unknown: "no driven path recorded",
   silent: "no report",
-  late: "red bar below: deadline missed", // no state, but a mark of the strip of planning times
+  late: "deadline missed (lowest strip)", // no state, but a mark of the strip of planning times
 };
 
 /// What terms of the report mean.

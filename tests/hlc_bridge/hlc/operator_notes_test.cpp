@@ -104,10 +104,11 @@ TEST_F(NotesOfRounds, LogOnceForWhomVehiclesPlanOneAfterTheOther) {
   static_cast<void>(loop_.stand_by(at(99, {seen(1, 0.0, 0.0), seen(2, 0.0, 0.3)})));
   step(100);
   step(101);
-  EXPECT_THAT(lines_of(actions_),
-              ElementsAre(Field(&machine::LogLine::text,
-                                HasSubstr("one after the other: vehicle 2 cannot be planned for here: not "
-                                          "seen"))));
+  EXPECT_THAT(
+      lines_of(actions_),
+      ElementsAre(Field(&machine::LogLine::text,
+                        HasSubstr("one after the other: vehicle 2 cannot be planned for here: not "
+                                  "seen"))));
 }
 
 TEST(OperatorNotes, NameTheOwnVehicleAloneIfOthersCannotPlanForIt) {
@@ -134,7 +135,8 @@ TEST(OperatorNotes, LogOnceThatStepsEndLateWithoutNamingPlanningAloneAsTheCause)
     notes.note_rounds({1}, rounds, actions);
   }
   EXPECT_THAT(lines_of(actions),
-              ElementsAre(Field(&machine::LogLine::text, HasSubstr("3 of 50 steps with two rounds ended late"))));
+              ElementsAre(Field(&machine::LogLine::text,
+                                HasSubstr("3 of 50 steps with two rounds ended late"))));
 }
 
 }  // namespace

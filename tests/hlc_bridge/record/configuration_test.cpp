@@ -116,8 +116,9 @@ TEST_F(ChoicesOfRun, AreThoseOfItsFolder) {
 
 TEST_F(ChoicesOfRun, MayBeRepeated) {
   test::put(folder_ / "circle.yaml", "cars: 4\n");
-  const RunChoices run = choices(
-      {.scenario = {.file = folder_ / "circle.yaml", .profile = "2022", .cars = 6}, .noise_seed = 3});
+  const RunChoices run =
+      choices({.scenario = {.file = folder_ / "circle.yaml", .profile = "2022", .cars = 6},
+               .noise_seed = 3});
   EXPECT_EQ(run.scenario.file, scenario_);
 }
 

@@ -399,7 +399,7 @@ TEST_F(PageInBrowser, TheLegendNamesMissedDeadlinesIfThereAreAny) {
   FinishedRun run = sample_run(3, 20);
   EXPECT_THAT(result_of(run, script).at("legend"), testing::Not(HasSubstr("deadline missed")));
   run.rows.at(5).record.deadline_missed = true;
-  EXPECT_THAT(result_of(run, script).at("legend"), HasSubstr("red bar below: deadline missed"));
+  EXPECT_THAT(result_of(run, script).at("legend"), HasSubstr("deadline missed (lowest strip)"));
 }
 
 TEST_F(PageInBrowser, LegendAndCaptionDoNotOverlapOnANarrowPage) {
