@@ -87,16 +87,11 @@ export function listen_to_pointers(canvas, view, { on_click, on_move }) {
 
 /// Dragging along the time lines. @param seek  called with the events
 export function listen_to_scrubbing(lines, seek) {
-  let is_down = false;
   lines.addEventListener("pointerdown", (event) => {
-    is_down = true;
     if (event.isTrusted) lines.setPointerCapture(event.pointerId);
     seek(event);
   });
-  lines.addEventListener("pointermove", (event) => is_down && seek(event));
-  for (const end of ["pointerup", "pointercancel"]) {
-    lines.addEventListener(end, () => (is_down = false));
-  }
+  lines.addEventListener("pointermove", (event) => event.buttons !== 0 && seek(event));
 }
 
 /// {key: action}, such as "Shift+ArrowLeft". Keys that the element in focus uses stay with it.

@@ -244,12 +244,12 @@ export class MapView {
       const other = this.run.vehicle(id);
       const to = other && this.place(other, t);
       if (!to) continue;
-      const yaw = Math.atan2(to.y - from.y, to.x - from.x);
-      const apart_m = Math.hypot(to.y - from.y, to.x - from.x);
+      const [dx, dy] = [to.x - from.x, to.y - from.y];
+      const apart_m = Math.hypot(dx, dy);
       const tip = -Math.min(0.5 * vehicle.length_m, apart_m / 3);
       const [back, side] = [tip - 10 / this.scale, 4 / this.scale];
       const points = [[-apart_m, 0], [tip, 0], [back, side], [tip, 0], [back, -side]];
-      const arrow = path_at({ x: to.x, y: to.y, yaw }, points, false);
+      const arrow = path_at({ ...to, yaw: Math.atan2(dy, dx) }, points, false);
       this.stroke(arrow, this.colours.ground, 5);
       this.stroke(arrow, this.colours.alarm, 2);
     }

@@ -79,15 +79,17 @@ export class TimeLine {
     this.canvas.style.height = `${run.vehicles.length * this.row_px + 20}px`;
   }
 
+  get width() {
+    return Math.max(1, this.canvas.clientWidth - kLeft_px - kRight_px);
+  }
+
   x_of(t) {
-    const width = this.canvas.clientWidth - kLeft_px - kRight_px;
-    return kLeft_px + (width * t) / Math.max(this.run.end_s, 1e-9);
+    return kLeft_px + (this.width * t) / Math.max(this.run.end_s, 1e-9);
   }
 
   /// May be outside the run.
   time_at(x) {
-    const width = Math.max(1, this.canvas.clientWidth - kLeft_px - kRight_px);
-    return ((x - kLeft_px) / width) * this.run.end_s;
+    return ((x - kLeft_px) / this.width) * this.run.end_s;
   }
 
   vehicle_at(y) {
