@@ -219,7 +219,7 @@ profile: $(quoted "$profile")
 engine: $(quoted "$engine")
 subgraph: $(quoted "$subgraph")
 policy: $(quoted "$policy")
-map: $(quoted "$map")
+map: $(quoted "${map:+$(realpath "$map")}")
 cars: ${cars:-null}
 seed: ${seed:-null}
 routes: $(quoted "$routes")
@@ -262,7 +262,7 @@ end_children() {
 summarize() {
   local page_flag=()
   [[ $page == true ]] || page_flag=(--page false)
-  "$bin/summarize" --run "$out" "${choices[@]}" ${noise_seed:+--noise_seed "$noise_seed"} "${page_flag[@]}"
+  "$bin/summarize" --run "$out" "${page_flag[@]}"
 }
 # shellcheck disable=SC2317 # called by the trap
 end_early() {

@@ -11,6 +11,7 @@
 #include "hlc_bridge/record/configuration.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
+#include "hlc_bridge/record/incomplete_files.hpp"
 #include "hlc_bridge/record/log_files.hpp"
 #include "hlc_bridge/record/program.hpp"
 #include "hlc_bridge/record/report_file.hpp"
@@ -29,17 +30,6 @@
 
 namespace {
 
-hlc::result::Drives drives_of(const std::filesystem::path& run,
-                              const hlc::result::RunFacts& facts) {
-  const hlc::result::Drives drives = hlc::record::read_drives(run, facts.vehicle_ids);
-  for (const std::uint8_t id : facts.vehicle_ids) {
-    if (drives.contains(id)) continue;
-    std::cerr << "summarize: " << hlc::record::drive_file(run, id).string()
-              << " is missing; the result of vehicle " << id + 0 << " has no driven values\n";
-  }
-  return drives;
-}
-
 /// What a run that was driven gets from its result: the exit code, and why it is not 0.
 struct Verdict {
   int exit_code{hlc::kExitGood};
@@ -55,24 +45,40 @@ Verdict verdict_on(const hlc::result::RunSummary& summary) {
   return {hlc::kExitStuck, "stuck at the end: vehicles " + hlc::record::ids_to_text(stuck)};
 }
 
-/// run.html. The result does not depend on it: a failure is one line.
-void write_page(const std::filesystem::path& run, const hlc::scenario::Scenario& scenario,
+/// What stands out in a run, for its page: the faults of the drive and of the records.
+std::string faults_of(const Verdict& verdict, const std::vector<std::string>& incomplete) {
+  std::string faults = verdict.fault;
+  for (const std::string& line : incomplete) faults += (faults.empty() ? "" : "; ") + line;
+  return faults;
+}
+
+std::filesystem::path page_file(const std::filesystem::path& run) { return run / "run.html"; }
+
+/// The result does not depend on the page: a failure is one line. @return whether it is written
+bool write_page(const std::filesystem::path& run, const hlc::scenario::Scenario& scenario,
                 hlc::view::FinishedRun page) {
   try {
     if (scenario.map_file) page.map = hlc::road::read_lanelet_map(*scenario.map_file);
     page.log = hlc::record::read_logs(run / "logs", page.facts);
     page.time = page.facts.simulated_time ? "logical time" : "real time";
     page.revision = hlc::program_revision();
-    hlc::write_file(run / "run.html", hlc::view::run_page(page));
+    hlc::write_file(page_file(run), hlc::view::run_page(page));
+    return true;
   } catch (const std::exception& error) {
     std::cerr << "summarize: no run.html: " << error.what() << '\n';
+    return false;
   }
+}
+
+/// The page of an earlier summary may show another result. @throws
+/// std::filesystem::filesystem_error
+void remove_old_page(const std::filesystem::path& run) {
+  if (std::filesystem::is_regular_file(page_file(run))) std::filesystem::remove(page_file(run));
 }
 
 struct Choices {
   std::filesystem::path run;
-  hlc::scenario::ScenarioChoices scenario;
-  std::optional<std::uint64_t> noise_seed;
+  hlc::record::RunChoices given;
   bool page{true};
 };
 
@@ -84,32 +90,41 @@ int summarize_run(const Choices& choices) {
   if (!facts.first_step) {
     facts.first_step = hlc::result::first_step_of(reports);  // the lab control did not end the run
   }
-  const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices.scenario);
+  const hlc::record::RunChoices driven = hlc::record::choices_of_run(run, choices.given);
+  const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(driven.scenario);
   const hlc::result::RunDescription description =
-      hlc::result::describe(scenario, choices.noise_seed);
+      hlc::result::describe(scenario, driven.noise_seed);
   hlc::result::check_run(facts, description);
-  const hlc::result::Drives drives = drives_of(run, facts);
+  const hlc::result::Drives drives = hlc::record::read_drives(run, facts.vehicle_ids);
   const std::vector<hlc::result::StepRecord> rows =
       hlc::result::step_records(reports, drives, facts);
+  const std::vector<std::string> incomplete = hlc::record::incomplete_files(facts, rows, drives);
+  for (const std::string& line : incomplete) {
+    std::cerr << "summarize: " << run.string() << ": " << line << '\n';
+  }
 
   hlc::result::RunSummary summary = hlc::result::summarize(description, facts, rows, drives);
   summary.revision = hlc::program_revision();
   summary.host = hlc::record::this_host();
+  remove_old_page(run);
   hlc::write_file(run / "steps.csv", hlc::record::steps_csv(rows));
   hlc::write_file(run / "timing.csv", hlc::record::timing_csv(rows));
   hlc::write_file(run / "summary.json", hlc::record::summary_json(summary));
   hlc::record::keep_configuration(run, hlc::scenario::files_of(scenario));
-  const Verdict verdict = verdict_on(summary);
+  Verdict verdict = verdict_on(summary);
+  bool has_page = false;
   if (choices.page) {
     hlc::view::FinishedRun page;
     page.description = description;
     page.facts = facts;
     page.rows = rows;
     page.drives = drives;
-    page.fault = verdict.fault;
-    write_page(run, scenario, std::move(page));
+    page.fault = faults_of(verdict, incomplete);
+    has_page = write_page(run, scenario, std::move(page));
+    if (!has_page && verdict.exit_code == hlc::kExitGood) verdict.exit_code = hlc::kExitBadInput;
   }
   std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
+  if (has_page) std::cout << "the run as a page: " << page_file(run).string() << '\n';
   if (!verdict.fault.empty()) std::cerr << "summarize: " << verdict.fault << '\n';
   return verdict.exit_code;
 }
@@ -121,9 +136,14 @@ int main(int argc, char** argv) {
                "summarize"};
   Choices choices;
   app.add_option("--run", choices.run, "run folder")->required();
-  hlc::apps::declare_scenario_flags(app, choices.scenario);
+  hlc::apps::declare_scenario_flags(app, choices.given.scenario);
+  app.get_option("--scenario")
+      ->required(false)
+      ->description(
+          "scenario file (YAML); this and the following are for a run without "
+          "configuration/flags.yaml; of other runs they must be the run's own");
   app.add_option("--page", choices.page, "false: no run.html")->capture_default_str();
-  app.add_option("--noise_seed", choices.noise_seed,
+  app.add_option("--noise_seed", choices.given.noise_seed,
                  "of the run's measurement noise; default: no noise")
       ->check(hlc::apps::whole(0, std::numeric_limits<std::uint64_t>::max()));
   app.footer(
@@ -133,6 +153,7 @@ int main(int argc, char** argv) {
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
     return *code;
   }
+  if (app.count("--profile") == 0) choices.given.scenario.profile.clear();
   return hlc::apps::exit_code_of(
       "summarize", [&] { return summarize_run(choices); }, hlc::kExitBadInput);
 }

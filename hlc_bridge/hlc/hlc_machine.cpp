@@ -262,7 +262,9 @@ bool HlcMachine::report() {
   core_.controller().note_waiting(report);
   if (current_.is_running) {
     notes_.note_step(controller(), report, actions_);
-    if (step_.two_rounds() != nullptr) notes_.note_rounds(*step_.two_rounds(), actions_);
+    if (step_.two_rounds() != nullptr) {
+      notes_.note_rounds(report.vehicle, *step_.two_rounds(), actions_);
+    }
   }
   actions_.add(current_.record);
   actions_.add(

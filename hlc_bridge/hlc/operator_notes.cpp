@@ -3,12 +3,35 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <ranges>
+#include <span>
 #include <utility>
 
 #include "hlc_bridge/hlc/placement_line.hpp"
 
 namespace hlc::high_level_controller {
+namespace {
+
+/// Why this step has no two rounds. A message without planning input does not name its reason.
+std::string not_shared_line(VehicleId own, std::span<const VehicleId> not_shared) {
+  const bool is_own = std::ranges::find(not_shared, own) != not_shared.end();
+  const std::string cause =
+      is_own ? fmt::format(
+                   "the others cannot plan for this vehicle {}: it is not seen, misses another "
+                   "controller, is off its route, or changes its subgraph",
+                   own.value)
+             : fmt::format(
+                   "vehicle{} {} cannot be planned for here: not seen, missing another controller, "
+                   "off the route, changing the subgraph, no longer in two rounds, or with another "
+                   "scenario or automaton",
+                   not_shared.size() == 1 ? "" : "s",
+                   fmt::join(not_shared | std::views::transform(&VehicleId::value), ", "));
+  return "no two rounds in this step, vehicles plan one after the other: " + cause +
+         " (logged once)";
+}
+
+}  // namespace
 
 void OperatorNotes::note_placement(const controller::Controller& controller, HlcActions& actions) {
   const bool fits = controller.fits_route();
@@ -46,27 +69,23 @@ void OperatorNotes::note_step(const controller::Controller& controller,
   }
 }
 
-void OperatorNotes::note_rounds(const controller::TwoRounds& rounds, HlcActions& actions) {
+void OperatorNotes::note_rounds(VehicleId own, const controller::TwoRounds& rounds,
+                                HlcActions& actions) {
   if (!rounds.not_shared().empty() && !is_not_shared_logged_) {
-    actions.warn(fmt::format(
-        "planning one after the other in steps in which not all plans can be computed here; for "
-        "the "
-        "first time now because of vehicles {} (a controller misses another one, changes its "
-        "subgraph, shares no more, or has another scenario or automaton)",
-        fmt::join(rounds.not_shared() | std::views::transform(&VehicleId::value), " ")));
+    actions.warn(not_shared_line(own, rounds.not_shared()));
     is_not_shared_logged_ = true;
   }
   if (rounds.shares() || is_end_of_sharing_logged_) return;
   is_end_of_sharing_logged_ = true;
   if (rounds.differs_from()) {
     actions.error(fmt::format(
-        "plans of vehicle {} differ from those computed here from the same traffic; planning one "
-        "after the other from now on",
+        "plans of vehicle {} differ from those computed here from the same traffic; vehicles plan "
+        "one after the other from now on",
         rounds.differs_from()->value));
   } else {
     actions.warn(fmt::format(
-        "{} late steps within {}: planning for all that matter takes too long on this machine; "
-        "planning one after the other from now on",
+        "{} of {} steps with two rounds ended late (planning for the others took too long, the "
+        "machine was busy, or messages came late); vehicles plan one after the other from now on",
         controller::TwoRounds::kMostLateSteps, controller::TwoRounds::kWindow));
   }
 }

@@ -30,9 +30,9 @@ class OperatorNotes {
   void note_step(const controller::Controller& controller, const coordination::Report& report,
                  HlcActions& actions);
 
-  /// With two rounds: that vehicles plan one after the other, for the first time, and which
-  /// vehicles are the reason; that this controller shares no more, and why.
-  void note_rounds(const controller::TwoRounds& rounds, HlcActions& actions);
+  /// With two rounds: that vehicles plan one after the other, once, and which vehicles are the
+  /// reason; that this controller shares no more, and why.
+  void note_rounds(VehicleId own, const controller::TwoRounds& rounds, HlcActions& actions);
 
   /// @param answer  the step's
   void note_fault(StepIndex step, const AnswerToList& answer, HlcActions& actions);

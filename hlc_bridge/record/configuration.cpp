@@ -26,6 +26,61 @@ std::string text_of(const std::optional<std::string>& value) {
   return value ? quoted_yaml(*value) : "null";
 }
 
+fs::path flags_file(const fs::path& run_folder) {
+  return run_folder / "configuration" / "flags.yaml";
+}
+
+fs::path copy_or_original(const fs::path& run_folder, const fs::path& file) {
+  fs::path copy = copy_of(run_folder, file);
+  return fs::exists(copy) ? copy : file;
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  return a.filename() == b.filename() && read_file(a) == read_file(b);
+}
+
+/// Compares what is given with what a run was driven with.
+class Comparison {
+ public:
+  explicit Comparison(const fs::path& run_folder) : flags_{flags_file(run_folder).string()} {}
+
+  template <class Value>
+  void check(const char* flag, const std::optional<Value>& given,
+             const std::optional<Value>& kept) const {
+    if (given && given != kept) refuse(flag, *given, kept ? fmt::to_string(*kept) : "left out");
+  }
+  void check_file(const char* flag, const fs::path& given,
+                  const std::optional<fs::path>& kept) const {
+    if (given.empty() || (kept && is_same_file(given, *kept))) return;
+    refuse(flag, given.string(), kept ? kept->string() + ", or the same" : "left out");
+  }
+
+ private:
+  template <class Value>
+  [[noreturn]] void refuse(const char* flag, const Value& given, const std::string& kept) const {
+    throw std::invalid_argument(
+        fmt::format("{} = {}, must be {}: the run was driven so ({})", flag, given, kept, flags_));
+  }
+
+  std::string flags_;
+};
+
+void check_same(const fs::path& run_folder, const scenario::ScenarioChoices& given,
+                const scenario::ScenarioChoices& kept) {
+  const Comparison comparison(run_folder);
+  comparison.check_file("--scenario", given.file, kept.file);
+  if (!given.profile.empty()) {
+    comparison.check("--profile", std::optional(given.profile), std::optional(kept.profile));
+  }
+  comparison.check("--engine", given.engine, kept.engine);
+  comparison.check("--subgraph", given.subgraph, kept.subgraph);
+  comparison.check("--policy", given.policy, kept.policy);
+  comparison.check_file("--map", given.map_file.value_or(fs::path{}), kept.map_file);
+  comparison.check("--cars", given.cars, kept.cars);
+  comparison.check("--seed", given.seed, kept.seed);
+  comparison.check("--routes", given.routes, kept.routes);
+}
+
 std::optional<std::string> text_or_null(const Node& flags, const std::string& key) {
   return flags.is_value(key) ? std::optional(flags.required<std::string>(key)) : std::nullopt;
 }
@@ -58,21 +113,42 @@ std::string flags_yaml(const scenario::ScenarioChoices& choices) {
 }
 
 scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
-  const fs::path file = run_folder / "configuration" / "flags.yaml";
+  const fs::path file = flags_file(run_folder);
   if (!fs::exists(file)) {
     throw std::invalid_argument(file.string() + ": missing; --scenario must be given");
   }
   const Node flags = Node::read_yaml(file);
   scenario::ScenarioChoices choices;
-  choices.file = copy_of(run_folder, flags.required<std::string>("scenario"));
+  choices.file = copy_or_original(run_folder, flags.required<std::string>("scenario"));
   choices.profile = flags.required<std::string>("profile");
   choices.engine = text_or_null(flags, "engine");
   choices.subgraph = text_or_null(flags, "subgraph");
   choices.policy = text_or_null(flags, "policy");
-  if (const auto map = text_or_null(flags, "map")) choices.map_file = copy_of(run_folder, *map);
+  if (const auto map = text_or_null(flags, "map")) {
+    choices.map_file = copy_or_original(run_folder, *map);
+  }
   if (flags.is_value("cars")) choices.cars = flags.required<std::size_t>("cars");
   if (flags.is_value("seed")) choices.seed = flags.required<std::size_t>("seed");
   choices.routes = text_or_null(flags, "routes");
+  return choices;
+}
+
+RunChoices choices_of_run(const fs::path& run_folder, const RunChoices& given) {
+  if (!fs::exists(flags_file(run_folder)) && !given.scenario.file.empty()) {
+    RunChoices choices = given;
+    if (choices.scenario.profile.empty())
+      choices.scenario.profile = scenario::ScenarioChoices{}.profile;
+    return choices;
+  }
+  RunChoices choices{.scenario = kept_choices(run_folder), .noise_seed = given.noise_seed};
+  check_same(run_folder, given.scenario, choices.scenario);
+  const Node flags = Node::read_yaml(flags_file(run_folder));
+  if (!flags.has("noise_seed")) return choices;
+  choices.noise_seed.reset();
+  if (flags.is_value("noise_seed")) {
+    choices.noise_seed = flags.required<std::size_t>("noise_seed");
+  }
+  Comparison(run_folder).check("--noise_seed", given.noise_seed, choices.noise_seed);
   return choices;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +21,23 @@ void keep_configuration(const std::filesystem::path& run_folder,
 /// keys and its own.
 [[nodiscard]] std::string flags_yaml(const scenario::ScenarioChoices& choices);
 
-/// The choices of a run from its flags.yaml, with the copies in its own folder.
+/// The choices of a run from its flags.yaml, with the copies in its own folder; a file that was not
+/// copied yet is that which was driven.
 /// @throws std::invalid_argument naming file, line, key, value and bound
 [[nodiscard]] scenario::ScenarioChoices kept_choices(const std::filesystem::path& run_folder);
+
+/// The choices that the result of a run depends on.
+struct RunChoices {
+  scenario::ScenarioChoices scenario;       ///< an empty profile: not given
+  std::optional<std::uint64_t> noise_seed;  ///< of the measurement noise; none: not given
+};
+
+/// The choices of the run, from its flags.yaml; without that file, as after a start by hand, those
+/// that are given, and the default profile.
+/// @param given  by the user; a scenario or map is the run's if it has the same name and text
+/// @throws std::invalid_argument as kept_choices, or naming a given flag, its value and the run's,
+/// if they differ
+[[nodiscard]] RunChoices choices_of_run(const std::filesystem::path& run_folder,
+                                        const RunChoices& given);
 
 }  // namespace hlc::record

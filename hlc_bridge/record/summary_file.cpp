@@ -102,6 +102,7 @@ std::string summary_json(const result::RunSummary& summary) {
   json["policy"] = run.policy;
   json["longest_wait_s"] = result::longest_wait_s(summary);
   json["stuck_vehicles"] = numbers(result::stuck_vehicles(summary));
+  json["rounds"] = run.has_two_rounds ? "two" : "sequential";
   return json.dump(2) + "\n";
 }
 

@@ -28,11 +28,6 @@ std::vector<Nanoseconds> instants(const Drive& a, const Drive& b, Nanoseconds fr
   return times;
 }
 
-/// A vehicle whose record has ended stands at its last position: others can still hit it.
-std::optional<Pose> pose_at(const Drive& drive, Nanoseconds t) {
-  return !drive.empty() && t > drive.back().t ? drive.back().pose : driven_pose_at(drive, t);
-}
-
 double distance_of(const Footprint& a, const Pose& pose_a, const Footprint& b, const Pose& pose_b) {
   return distance_m(footprint_area(a, pose_a), footprint_area(b, pose_b));
 }
@@ -41,8 +36,8 @@ void measure_pair(const VehicleDescription& a, const Drive& drive_a, const Vehic
                   const Drive& drive_b, Nanoseconds from, Nanoseconds to, Encounters& result) {
   bool touched = false;
   for (const Nanoseconds t : instants(drive_a, drive_b, from, to)) {
-    const std::optional<Pose> pose_a = pose_at(drive_a, t);
-    const std::optional<Pose> pose_b = pose_at(drive_b, t);
+    const std::optional<Pose> pose_a = driven_pose_at(drive_a, t);
+    const std::optional<Pose> pose_b = driven_pose_at(drive_b, t);
     if (!pose_a || !pose_b) {
       continue;
     }
@@ -83,8 +78,8 @@ std::vector<TimedDistance> footprint_distances(const VehicleDescription& a, cons
                                                Nanoseconds from, Nanoseconds to) {
   std::vector<TimedDistance> distances;
   for (const Nanoseconds t : instants(drive_a, drive_b, from, to)) {
-    const std::optional<Pose> pose_a = pose_at(drive_a, t);
-    const std::optional<Pose> pose_b = pose_at(drive_b, t);
+    const std::optional<Pose> pose_a = driven_pose_at(drive_a, t);
+    const std::optional<Pose> pose_b = driven_pose_at(drive_b, t);
     if (!pose_a || !pose_b) continue;
     distances.push_back({t, distance_of(a.footprint, *pose_a, b.footprint, *pose_b)});
   }

@@ -16,8 +16,8 @@ struct Encounters {
 };
 
 /// Checks every instant in [from, to] at which a vehicle was recorded, for every pair of vehicles
-/// that both have a pose then (driven_pose_at; after the end of its record a vehicle stands at its
-/// last position). Footprints are rectangles along the yaw, without margin.
+/// that both have a pose then (driven_pose_at: none after the end of its record, where the vehicle
+/// may be anywhere). Footprints are rectangles along the yaw, without margin.
 /// @param vehicles  their footprints; vehicles without a drive are skipped
 [[nodiscard]] Encounters encounters(std::span<const VehicleDescription> vehicles,
                                     const Drives& drives, Nanoseconds from, Nanoseconds to);

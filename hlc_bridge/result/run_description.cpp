@@ -22,6 +22,7 @@ RunDescription describe(const scenario::Scenario& scenario,
   description.noise_seed = noise_seed;
   description.subgraph = scenario.subgraph->spec().name;
   description.policy = scenario.policy;
+  description.has_two_rounds = scenario.rounds == controller::Rounds::kTwo;
   description.horizon_steps = scenario.horizon_steps;
   description.step_s = automaton.step_s;
   if (scenario.lab) description.tracking_error_max_m = scenario.lab->tracking_error_max_m;

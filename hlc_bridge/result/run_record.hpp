@@ -33,6 +33,7 @@ struct RunDescription {
   std::optional<std::uint64_t> noise_seed;  ///< none: the cars measured exactly
   std::string subgraph;
   std::string policy{policy::kNoPolicy};  ///< by which the controllers changed it
+  bool has_two_rounds{};                  ///< controller::Rounds::kTwo
   std::size_t horizon_steps{};
   double step_s{};
   std::vector<VehicleDescription> vehicles;

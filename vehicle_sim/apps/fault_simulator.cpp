@@ -28,6 +28,7 @@ using hlc::closed_loop::FaultKind;
 using hlc::closed_loop::FaultRunResult;
 using Clock = std::chrono::steady_clock;
 
+constexpr int kBadInput = 2;  ///< exit code; 1 is for violations
 constexpr std::uint64_t kTwice = 50;
 constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
 
@@ -172,16 +173,17 @@ int main(int argc, char** argv) {
   app.footer("Exit codes: 0 nothing is violated, 1 something is, 2 bad flags or files.");
   Choices choices;
   std::vector<std::string> keep;
-  choices.campaign.scenario_folder = "launch_scripts/scenarios";
+  choices.campaign.scenario_folder =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "scenarios";
   app.add_option("--cars", choices.campaign.cars, "0: as the seed has it")
       ->check(hlc::apps::among({"0", "3", "4", "5", "6", "7", "8"}))
       ->capture_default_str();
   app.add_flag("--lab_network", choices.campaign.on_lab_network,
                "cars with right of way on the roads of lab_cars in all runs");
-  app.add_flag("--two_rounds", choices.campaign.has_two_rounds,
-               "cars compute each other's plans (rounds: two); in half of the runs one shares not, "
-               "plans by other "
-               "rules or computes other bits");
+  app.add_flag(
+      "--two_rounds", choices.campaign.has_two_rounds,
+      "cars compute each other's plans (rounds: two); in half of the runs one does not take "
+      "part, plans by other rules or computes other bits");
   app.add_option("--runs", choices.runs, "number of runs")
       ->check(hlc::apps::whole(1, kLargestSeed))
       ->capture_default_str();
@@ -193,8 +195,8 @@ int main(int argc, char** argv) {
       ->check(hlc::apps::among(fault_names()));
   app.add_option("--jobs", choices.jobs, "threads (default: as many as cores)")
       ->check(hlc::apps::whole(1, 256));
-  app.add_option("--scenario_folder", choices.campaign.scenario_folder, "folder of the scenarios")
-      ->capture_default_str();
+  app.add_option("--scenario_folder", choices.campaign.scenario_folder,
+                 "folder of the scenarios (default: scenarios beside the program)");
   CLI::Option* const replayed =
       app.add_option("--replay", choices.replay, "only the run of this seed")
           ->check(hlc::apps::whole(0, kLargestSeed));
@@ -204,7 +206,7 @@ int main(int argc, char** argv) {
       ->check(hlc::apps::whole(0, 9999) | hlc::apps::among({"none"}));
   app.add_option("--trace", choices.trace, "file for what happens")->needs(replayed);
   if (const std::optional<int> code = hlc::apps::parse_flags(app, argc, argv)) return *code;
-  return hlc::apps::exit_code_of("fault_simulator", [&] {
+  const auto run = [&] {
     hlc::apps::check_each_once("--faults", choices.faults);
     choices.campaign.kinds = hlc::closed_loop::fault_kinds_of(choices.faults);
     if (!keep.empty()) choices.keep.emplace();
@@ -212,5 +214,6 @@ int main(int argc, char** argv) {
       if (index != "none") choices.keep->push_back(std::stoul(index));
     }
     return choices.replay ? replay(choices) : campaign(choices, flags_of(choices));
-  });
+  };
+  return hlc::apps::exit_code_of("fault_simulator", run, kBadInput);
 }

@@ -2,7 +2,6 @@
 
 /// The time shown, and how fast it runs.
 export class Player {
-  /// @param on_change  called after every change of the time
   constructor(run, on_change) {
     Object.assign(this, { run, on_change, t: 0, speed: 1, direction: 0, last_ms: null });
   }
@@ -45,15 +44,15 @@ export class Player {
   }
 }
 
-/// Moving and zooming by mouse, wheel and fingers.
-/// @param on_click  called with the place of a click
+/// Moving and zooming by mouse, wheel and fingers. @param on_click  called with the place of a click
 export function listen_to_pointers(canvas, view, { on_click, on_move }) {
   const fingers = new Map(); // pointer id: [x, y]
   let has_moved = false;
   const place = (event) => [event.offsetX, event.offsetY];
-  const apart = () => {
-    const [a, b] = [...fingers.values()];
-    return { px: Math.hypot(a[0] - b[0], a[1] - b[1]), x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2 };
+  const grip = () => {
+    const [a, b = a] = [...fingers.values()];
+    const px = Math.max(1, Math.hypot(a[0] - b[0], a[1] - b[1]));
+    return { px, x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2 };
   };
   canvas.addEventListener("pointerdown", (event) => {
     if (event.isTrusted) canvas.setPointerCapture(event.pointerId);
@@ -64,25 +63,21 @@ export function listen_to_pointers(canvas, view, { on_click, on_move }) {
     const before = fingers.get(event.pointerId);
     if (!before) return;
     const now = place(event);
-    const was = fingers.size === 2 ? apart() : null;
     if (!has_moved && Math.hypot(now[0] - before[0], now[1] - before[1]) < 4) return;
     has_moved = true;
+    const was = grip();
     fingers.set(event.pointerId, now);
-    if (was) {
-      const is = apart();
-      view.zoom(is.px / Math.max(1, was.px), is.x, is.y);
-      view.move(is.x - was.x, is.y - was.y);
-    } else if (fingers.size === 1) {
-      view.move(now[0] - before[0], now[1] - before[1]);
-    }
+    const is = grip();
+    view.zoom(is.px / was.px, is.x, is.y);
+    view.move(is.x - was.x, is.y - was.y);
     on_move();
   });
-  const end = (event) => {
-    if (!fingers.delete(event.pointerId) || fingers.size > 0) return;
-    if (!has_moved && event.type === "pointerup") on_click(...place(event));
-  };
-  canvas.addEventListener("pointerup", end);
-  canvas.addEventListener("pointercancel", end);
+  for (const end of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(end, (event) => {
+      if (!fingers.delete(event.pointerId) || fingers.size > 0) return;
+      if (!has_moved && end === "pointerup") on_click(...place(event));
+    });
+  }
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
     view.zoom(Math.exp(-event.deltaY * 0.0015), ...place(event));
@@ -92,20 +87,14 @@ export function listen_to_pointers(canvas, view, { on_click, on_move }) {
 
 /// Dragging along the time lines. @param seek  called with the events
 export function listen_to_scrubbing(lines, seek) {
-  let is_down = false;
   lines.addEventListener("pointerdown", (event) => {
-    is_down = true;
     if (event.isTrusted) lines.setPointerCapture(event.pointerId);
     seek(event);
   });
-  lines.addEventListener("pointermove", (event) => is_down && seek(event));
-  for (const end of ["pointerup", "pointercancel"]) {
-    lines.addEventListener(end, () => (is_down = false));
-  }
+  lines.addEventListener("pointermove", (event) => event.buttons !== 0 && seek(event));
 }
 
-/// Keys of the whole page: {key: action}, with the modifier before the key: "Shift+ArrowLeft". Keys
-/// that the element in focus uses itself stay with it.
+/// {key: action}, such as "Shift+ArrowLeft". Keys that the element in focus uses stay with it.
 export function listen_to_keys(actions) {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;

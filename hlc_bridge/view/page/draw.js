@@ -1,6 +1,6 @@
 // The map: lanes, paths, areas and cars at one time, on a canvas. World coordinates in m, y up.
 
-import { compose } from "./model.js";
+import { compose, point_in } from "./model.js";
 import { state_of } from "./words.js";
 
 const kTrail_s = 4; // of the driven path
@@ -14,7 +14,7 @@ export function colour_index(run, vehicle) {
   return named !== undefined ? named : run.vehicles.indexOf(vehicle) % kNumColours;
 }
 
-/// The page's colours as the style sheet gives them, light or dark.
+/// As the style sheet gives them, light or dark.
 export function read_colours() {
   const style = getComputedStyle(document.documentElement);
   const value = (name) => style.getPropertyValue(`--${name}`).trim();
@@ -28,6 +28,8 @@ export function read_colours() {
   return colours;
 }
 
+const font_of = (size_px) => `600 ${size_px}px system-ui, sans-serif`;
+
 function path_through(points, closed) {
   const path = new Path2D();
   points.forEach(([x, y], i) => (i === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
@@ -35,13 +37,11 @@ function path_through(points, closed) {
   return path;
 }
 
-/// Path through points in the frame of the pose.
 function path_at(pose, points, closed = true) {
-  const corners = points.map(([x, y]) => compose(pose, { x, y, yaw: 0 }));
-  return path_through(corners.map(({ x, y }) => [x, y]), closed);
+  return path_through(points.map((point) => point_in(pose, point)), closed);
 }
 
-/// Adapts the canvas to its place on the page and the screen. @return its pixels per px of the page
+/// Adapts the canvas to page and screen. @return its pixels per px of the page
 export function adapt(canvas) {
   const ratio = window.devicePixelRatio || 1;
   const width = Math.round(canvas.clientWidth * ratio);
@@ -63,7 +63,7 @@ export class MapView {
   /// After a change of the run's map or routes.
   set_run(run) {
     this.run = run;
-    this.lanes = run.lanes.map(({ left, right }) => ({
+    this.lanes = run.lanes.map(([left, right]) => ({
       area: path_through([...left, ...[...right].reverse()], true),
       bounds: [path_through(left), path_through(right)],
     }));
@@ -82,13 +82,16 @@ export class MapView {
     this.is_fitted = true;
   }
 
-  /// Zooms by a factor; the world's point at (x, y) on the canvas stays there.
-  zoom(factor, x = this.canvas.clientWidth / 2, y = this.canvas.clientHeight / 2) {
-    const before = this.to_world(x, y);
-    this.scale = Math.max(5, Math.min(5000, this.scale * factor));
-    const after = this.to_world(x, y);
-    this.centre = [this.centre[0] + before[0] - after[0], this.centre[1] + before[1] - after[1]];
-    this.is_fitted = false;
+  get middle() {
+    return [this.canvas.clientWidth / 2, this.canvas.clientHeight / 2];
+  }
+
+  /// What is at (x, y) on the canvas stays there.
+  zoom(factor, x = this.middle[0], y = this.middle[1]) {
+    const before = this.scale;
+    this.scale = Math.max(5, Math.min(5000, before * factor));
+    const growth = this.scale / before - 1;
+    this.move((this.middle[0] - x) * growth, (this.middle[1] - y) * growth);
   }
 
   move(dx, dy) {
@@ -96,34 +99,24 @@ export class MapView {
     this.is_fitted = false;
   }
 
-  to_world(x, y) {
-    return [
-      this.centre[0] + (x - this.canvas.clientWidth / 2) / this.scale,
-      this.centre[1] - (y - this.canvas.clientHeight / 2) / this.scale,
-    ];
-  }
-
   to_canvas([x, y]) {
+    const [middle_x, middle_y] = this.middle;
     return [
-      (x - this.centre[0]) * this.scale + this.canvas.clientWidth / 2,
-      (this.centre[1] - y) * this.scale + this.canvas.clientHeight / 2,
+      (x - this.centre[0]) * this.scale + middle_x,
+      (this.centre[1] - y) * this.scale + middle_y,
     ];
   }
 
-  /// Where a car is drawn at t: driven, without a record as planned, in the last step at its begin;
-  /// null: nowhere.
+  /// Where a car is drawn at t: as driven, else as planned, then or when the step began.
   place(vehicle, t) {
     const { run } = this;
-    const begin_s = run.step_at(t) * run.step_s;
-    return (
-      run.driven_at(vehicle, t) || run.planned_at(vehicle, t) || run.planned_at(vehicle, begin_s)
-    );
+    const planned = (at) => run.planned_at(vehicle, at);
+    return run.driven_at(vehicle, t) || planned(t) || planned(run.step_at(t) * run.step_s);
   }
 
   /// The car at (x, y) on the canvas, or the nearest within a finger's width.
   car_at(x, y, t) {
-    let nearest = null;
-    let least_px = 24;
+    let [nearest, least_px] = [null, 24];
     for (const vehicle of this.run.vehicles) {
       const pose = this.place(vehicle, t);
       if (!pose) continue;
@@ -135,7 +128,7 @@ export class MapView {
     return nearest;
   }
 
-  /// From here on drawing is in world coordinates, with line widths in px.
+  /// From here on drawing is in world coordinates.
   use_world() {
     const s = this.scale * this.ratio;
     const [x, y] = this.to_canvas([0, 0]);
@@ -143,25 +136,23 @@ export class MapView {
   }
 
   use_canvas() {
+    this.context.globalAlpha = 1;
+    this.context.setLineDash([]);
     this.context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
   }
 
   /// @param dashes  in px
   stroke(path, colour, width_px, dashes = [], opacity = 1) {
-    this.context.globalAlpha = opacity;
-    this.context.strokeStyle = colour;
-    this.context.lineWidth = width_px / this.scale;
-    this.context.setLineDash(dashes.map((px) => px / this.scale));
-    this.context.stroke(path);
-    this.context.setLineDash([]);
-    this.context.globalAlpha = 1;
+    const { context, scale } = this;
+    const lineWidth = width_px / scale;
+    Object.assign(context, { globalAlpha: opacity, strokeStyle: colour, lineWidth });
+    context.setLineDash(dashes.map((px) => px / scale));
+    context.stroke(path);
   }
 
   fill(path, colour, opacity = 1) {
-    this.context.globalAlpha = opacity;
-    this.context.fillStyle = colour;
+    Object.assign(this.context, { globalAlpha: opacity, fillStyle: colour });
     this.context.fill(path);
-    this.context.globalAlpha = 1;
   }
 
   colour_of(vehicle) {
@@ -181,14 +172,14 @@ export class MapView {
     this.context.fillRect(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
     this.use_world();
     for (const { area } of this.lanes) this.fill(area, this.colours.lane);
-    for (const { bounds } of this.lanes) {
-      for (const bound of bounds) this.stroke(bound, this.colours.bound, 1);
+    for (const bound of this.lanes.flatMap(({ bounds }) => bounds)) {
+      this.stroke(bound, this.colours.bound, 1);
     }
     for (const vehicle of this.run.vehicles) this.draw_paths(vehicle, shown);
     for (const vehicle of this.run.vehicles) this.draw_car(vehicle, shown);
     for (const vehicle of this.run.vehicles) this.draw_waiting(vehicle, shown.t);
     this.use_canvas();
-    for (const vehicle of this.run.vehicles) this.draw_label(vehicle, shown);
+    this.draw_labels(shown);
   }
 
   draw_paths(vehicle, { t, selected, layers }) {
@@ -226,13 +217,12 @@ export class MapView {
     if (planned) this.stroke(this.rectangle(vehicle, planned), fill, 1.5, [3, 2]);
     const body = this.rectangle(vehicle, pose);
     const { kind } = state_of(this.run, vehicle, t);
-    const alarms = ["fallback", "stop", "silent"].includes(kind);
-    this.fill(body, fill);
-    const tip = vehicle.length_m / 2;
-    const side = 0.4 * vehicle.width_m;
-    const [near, far] = [0.62 * tip, 0.9 * tip];
-    const bonnet = [[far, side], [far, -side], [near, -side], [near, side]];
-    this.fill(path_at(pose, bonnet), this.colours.ground);
+    const alarms = ["fallback", "stop", "stuck", "silent"].includes(kind);
+    this.fill(body, fill, this.run.driven_at(vehicle, t) ? 1 : 0.4);
+    const { length_m, width_m } = vehicle;
+    const bonnet = { length_m: 0.14 * length_m, width_m: 0.8 * width_m };
+    const [x, y] = point_in(pose, [0.38 * length_m, 0]);
+    this.fill(this.rectangle(bonnet, { ...pose, x, y }), this.colours.ground);
     this.stroke(body, alarms ? this.colours.alarm : this.colours.text, alarms ? 3 : 1.2);
     if (vehicle.id !== selected) return;
     const ring = new Path2D();
@@ -254,40 +244,57 @@ export class MapView {
       const other = this.run.vehicle(id);
       const to = other && this.place(other, t);
       if (!to) continue;
-      const yaw = Math.atan2(to.y - from.y, to.x - from.x);
-      const apart_m = Math.hypot(to.y - from.y, to.x - from.x);
+      const [dx, dy] = [to.x - from.x, to.y - from.y];
+      const apart_m = Math.hypot(dx, dy);
       const tip = -Math.min(0.5 * vehicle.length_m, apart_m / 3);
       const [back, side] = [tip - 10 / this.scale, 4 / this.scale];
       const points = [[-apart_m, 0], [tip, 0], [back, side], [tip, 0], [back, -side]];
-      const arrow = path_at({ x: to.x, y: to.y, yaw }, points, false);
+      const arrow = path_at({ ...to, yaw: Math.atan2(dy, dx) }, points, false);
       this.stroke(arrow, this.colours.ground, 5);
       this.stroke(arrow, this.colours.alarm, 2);
     }
   }
 
-  /// The car's number on it, and its state if it does not just drive.
-  draw_label(vehicle, { t, selected, layers }) {
-    const pose = this.place(vehicle, t);
-    if (!pose) return;
-    const [x, y] = this.to_canvas([pose.x, pose.y]);
-    const { fill, ink } = this.colour_of(vehicle);
+  /// The cars' numbers on them, and the states of those that do not just drive.
+  draw_labels({ t, selected, layers }) {
     this.context.textAlign = "center";
     this.context.textBaseline = "middle";
-    const back = compose(pose, { x: -0.12 * vehicle.length_m, y: 0, yaw: 0 });
-    const size_px = Math.max(11, Math.min(22, 0.8 * vehicle.width_m * this.scale));
-    this.text(String(vehicle.id), ...this.to_canvas([back.x, back.y]), ink, size_px, fill);
-    const { short } = state_of(this.run, vehicle, t);
-    if (!short || (!layers.labels && vehicle.id !== selected)) return;
-    const below_px = Math.max(vehicle.length_m * this.scale, 20) / 2 + 10;
-    this.text(short, x, y + below_px, this.colours.text, 12);
+    const [labels, taken] = [[], []]; // taken: places of numbers and labels
+    for (const vehicle of this.run.vehicles) {
+      const pose = this.place(vehicle, t);
+      if (!pose) continue;
+      const { fill, ink } = this.colour_of(vehicle);
+      const [x, y] = this.to_canvas(point_in(pose, [-0.12 * vehicle.length_m, 0]));
+      const size_px = Math.max(11, Math.min(22, 0.8 * vehicle.width_m * this.scale));
+      this.text(String(vehicle.id), x, y, ink, size_px, fill);
+      taken.push({ x, y, half: 8 });
+      const { short } = state_of(this.run, vehicle, t);
+      if (short && (layers.labels || vehicle.id === selected)) {
+        labels.push([short, x, y + Math.max(vehicle.length_m * this.scale, 20) / 2 + 10]);
+      }
+    }
+    for (const label of labels) this.draw_label(...label, taken);
+  }
+
+  /// Below its car, farther down where others are, then with a line to the car.
+  draw_label(words, x, y, taken) {
+    const { context, colours } = this;
+    context.font = font_of(12);
+    const half = context.measureText(words).width / 2 + 3;
+    const meets = (one) => Math.abs(one.x - x) < one.half + half && Math.abs(one.y - at) < 13;
+    let at = y;
+    while (taken.some(meets)) at += 7;
+    taken.push({ x, y: at, half });
+    context.fillStyle = colours.text;
+    if (at > y) context.fillRect(x, y - 10, 1, at - y);
+    this.text(words, x, at, colours.text, 12);
   }
 
   text(words, x, y, colour, size_px, halo = this.colours.ground) {
-    this.context.font = `600 ${size_px}px system-ui, sans-serif`;
-    this.context.lineWidth = 4;
-    this.context.strokeStyle = halo;
-    this.context.strokeText(words, x, y);
-    this.context.fillStyle = colour;
-    this.context.fillText(words, x, y);
+    const { context } = this;
+    Object.assign(context, { lineWidth: 4, strokeStyle: halo, fillStyle: colour });
+    context.font = font_of(size_px);
+    context.strokeText(words, x, y);
+    context.fillText(words, x, y);
   }
 }

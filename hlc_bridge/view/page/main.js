@@ -1,4 +1,4 @@
-// Puts the page together. A finished run is in the element "data": a JSON array of messages.
+// Puts the page together. The run is in the element "data": a JSON array of messages.
 
 import { Run } from "./model.js";
 import { MapView, read_colours } from "./draw.js";
@@ -35,7 +35,6 @@ class Page {
     return by_id("follow").checked;
   }
 
-  /// What draw() draws.
   get shown() {
     const layers = Object.fromEntries(kLayers.map((name) => [name, by_id(name).checked]));
     return { t: this.player.t, selected: this.selected, follow: this.follow, layers };
@@ -69,6 +68,17 @@ class Page {
     by_id("scrub").value = String(shown.t);
     by_id("play").setAttribute("aria-pressed", String(this.player.direction === 1));
     by_id("back").setAttribute("aria-pressed", String(this.player.direction === -1));
+    this.keep_address();
+  }
+
+  /// The address follows the moment shown, not in every frame: browsers limit how often.
+  keep_address() {
+    this.address_due ??= setTimeout(() => {
+      this.address_due = null;
+      const { t, selected, follow } = this.shown;
+      const car = selected === null ? "" : `&car=${selected}${follow ? "&follow=1" : ""}`;
+      history.replaceState(null, "", `#t=${t.toFixed(2)}${car}`);
+    }, 500);
   }
 
   draw_static() {
@@ -119,7 +129,7 @@ class Page {
     listen_to_keys(keys);
   }
 
-  /// Keys, what they do, and the button that does the same.
+  /// Key, action, button.
   actions() {
     const { player } = this;
     return [
@@ -144,8 +154,8 @@ class Page {
   select_next(change) {
     const { vehicles } = this.run;
     const now = vehicles.findIndex((vehicle) => vehicle.id === this.selected);
-    const next = now < 0 ? (change > 0 ? 0 : vehicles.length - 1) : now + change;
-    this.select(vehicles[(next + vehicles.length) % vehicles.length].id);
+    const next = now < 0 && change < 0 ? -1 : now + change;
+    this.select(vehicles.at(next % vehicles.length).id);
   }
 
   zoom(factor) {

@@ -1,10 +1,9 @@
-// The run as the page knows it, and questions about it at any time. Data arrives as messages
-// through Run.take(): those embedded in the page of a finished run, or later those of a live run,
-// in smaller portions. hlc_bridge/view/page_messages.hpp specifies the messages.
+// The run as the page knows it, and questions about it at any time. Data arrives through
+// Run.take(), as messages that hlc_bridge/view/page_messages.hpp specifies.
 
 const kFormat = 1;
 
-/// The values of which a column holds the first and then the differences.
+/// The values of a column, which holds the first one and then the differences.
 function sums(deltas, unit) {
   let sum = 0;
   return deltas.map((delta) => (sum += delta) * unit);
@@ -12,22 +11,21 @@ function sums(deltas, unit) {
 
 /// Points [[x, y], ...] of a line: x and y in turn, each as the difference to the point before.
 function line_of(deltas, unit) {
-  const points = [];
-  let x = 0;
-  let y = 0;
-  for (let i = 0; i + 1 < deltas.length; i += 2) {
-    x += deltas[i];
-    y += deltas[i + 1];
-    points.push([x * unit, y * unit]);
-  }
-  return points;
+  const [x, y] = [0, 1].map((odd) => sums(deltas.filter((_, i) => i % 2 === odd), unit));
+  return x.map((value, i) => [value, y[i]]);
 }
 
-/// The pose b, given in the frame a, in the frame in which a is given.
+/// The pose b, given in the frame a, in a's own frame of reference.
 export function compose(a, b) {
   const c = Math.cos(a.yaw);
   const s = Math.sin(a.yaw);
   return { x: a.x + c * b.x - s * b.y, y: a.y + s * b.x + c * b.y, yaw: a.yaw + b.yaw };
+}
+
+/// The same for a point [x, y].
+export function point_in(a, [x, y]) {
+  const point = compose(a, { x, y, yaw: 0 });
+  return [point.x, point.y];
 }
 
 function inverse(a) {
@@ -39,17 +37,13 @@ function inverse(a) {
 /// Between two poses, the heading along the shorter arc.
 function between(a, b, part) {
   const turn = Math.atan2(Math.sin(b.yaw - a.yaw), Math.cos(b.yaw - a.yaw));
-  return {
-    x: a.x + part * (b.x - a.x),
-    y: a.y + part * (b.y - a.y),
-    yaw: a.yaw + part * turn,
-  };
+  return { x: a.x + part * (b.x - a.x), y: a.y + part * (b.y - a.y), yaw: a.yaw + part * turn };
 }
 
 export class Run {
   constructor() {
     this.about = null; // of the message "run"
-    this.lanes = []; // {left, right}, points
+    this.lanes = []; // [left, right], points
     this.vehicles = []; // in the order of the run
     this.maneuvers = []; // {label, path: poses, area: points}
     this.log = [];
@@ -58,15 +52,13 @@ export class Run {
 
   /// @throws Error for a message of another format
   take(message) {
-    const take = {
-      run: () => this.take_run(message),
-      maneuvers: () => this.take_maneuvers(message),
-      steps: () => this.take_steps(message),
-      drive: () => this.take_drive(message),
-      log: () => this.log.push(...message.lines),
-    }[message.kind];
-    if (!take) throw new Error(`unknown kind of message ${message.kind}`);
-    take();
+    const take = `take_${message.kind}`;
+    if (!this[take]) throw new Error(`unknown kind of message ${message.kind}`);
+    this[take](message);
+  }
+
+  take_log({ lines }) {
+    this.log.push(...lines);
   }
 
   take_run(message) {
@@ -76,10 +68,7 @@ export class Run {
     this.about = message;
     this.unit = message.unit_m;
     this.step_s = message.step_s;
-    this.lanes = message.lanes.map(([left, right]) => ({
-      left: line_of(left, this.unit),
-      right: line_of(right, this.unit),
-    }));
+    this.lanes = message.lanes.map((bounds) => bounds.map((bound) => line_of(bound, this.unit)));
     this.vehicles = message.vehicles.map((vehicle) => ({
       ...vehicle,
       route: line_of(vehicle.route, this.unit),
@@ -136,7 +125,6 @@ export class Run {
     return this.vehicles.find((vehicle) => vehicle.id === id);
   }
 
-  /// Time at the end of the last step reported.
   get end_s() {
     return this.num_steps * this.step_s;
   }
@@ -145,17 +133,16 @@ export class Run {
     return Math.max(0, Math.min(this.num_steps - 1, Math.floor(t / this.step_s + 1e-6)));
   }
 
-  /// What the car reported in the step at t; undefined: nothing.
   report_at(vehicle, t) {
     return vehicle.steps[this.step_at(t)];
   }
 
-  /// Where the car was, with its speed; null: not recorded.
+  /// Where the car was, with its speed; null: not recorded. A record holds for a tick.
   driven_at(vehicle, t) {
     for (const drive of vehicle.drives) {
       const at = (t - drive.begin_s) / drive.tick_s;
       const last = drive.x.length - 1;
-      if (at < -1e-6 || at > last + 1e-6) continue;
+      if (at < -1e-6 || at > last + 1 + 1e-6) continue;
       const i = Math.max(0, Math.min(last, Math.floor(at)));
       const j = Math.min(last, i + 1);
       const part = Math.max(0, Math.min(1, at - i));
@@ -166,7 +153,6 @@ export class Run {
     return null;
   }
 
-  /// Points that the car drove in this time.
   driven_path(vehicle, from_s, to_s) {
     const points = [];
     for (const drive of vehicle.drives) {
@@ -189,8 +175,7 @@ export class Run {
     return apart_m < 0.05 ? { maneuver, frame } : null;
   }
 
-  /// Where the plan in force is at t; null: there is none, or it is not known, as within the last
-  /// step.
+  /// Where the plan in force is at t; null: none, or not known, as within the last step.
   planned_at(vehicle, t) {
     const k = this.step_at(t);
     const report = vehicle.steps[k];
@@ -208,7 +193,7 @@ export class Run {
     return next ? between(report.pose, next.pose, part) : null;
   }
 
-  /// Points of the plan in force during the steps from ... to - 1, as far as it is known.
+  /// Points of the plan during the steps from ... to - 1, as far as it is known.
   planned_path(vehicle, from, to) {
     const points = [];
     for (let k = from; k < to; ++k) {
@@ -217,7 +202,7 @@ export class Run {
       const poses = motion
         ? motion.maneuver.path.map((pose) => compose(motion.frame, pose))
         : [vehicle.steps[k].pose];
-      for (const pose of poses) points.push([pose.x, pose.y]);
+      points.push(...poses.map(({ x, y }) => [x, y]));
       if (!motion) break;
     }
     return points;
@@ -226,14 +211,10 @@ export class Run {
   /// Area that the car may occupy in step k according to its plan; null: not known.
   area_in(vehicle, k) {
     const motion = this.frame_of_maneuver(vehicle, k);
-    if (!motion) return null;
-    return motion.maneuver.area.map(([x, y]) => {
-      const corner = compose(motion.frame, { x, y, yaw: 0 });
-      return [corner.x, corner.y];
-    });
+    return motion && motion.maneuver.area.map((corner) => point_in(motion.frame, corner));
   }
 
-  /// Box of everything there is to see: {min: [x, y], max: [x, y]}.
+  /// Box of all there is to see.
   box() {
     const min = [Infinity, Infinity];
     const max = [-Infinity, -Infinity];
@@ -243,7 +224,7 @@ export class Run {
       max[0] = Math.max(max[0], x);
       max[1] = Math.max(max[1], y);
     };
-    for (const { left, right } of this.lanes) [...left, ...right].forEach(add);
+    for (const bound of this.lanes.flat()) bound.forEach(add);
     for (const vehicle of this.vehicles) {
       vehicle.route.forEach(add);
       for (const drive of vehicle.drives) drive.x.forEach((x, i) => add([x, drive.y[i]]));

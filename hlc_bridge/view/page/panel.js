@@ -1,8 +1,7 @@
-// The text beside the map: cars, the selected car's report, log. All text of the run is set as
-// text, never as markup: a name with tags in it shows as it is.
+// The text beside the map: cars, report, log. Text of the run is never markup: tags show as they are.
 
 import { colour_index } from "./draw.js";
-import { planning_words, report_rows, seconds, state_of } from "./words.js";
+import { kTerms, planning_words, report_rows, seconds, state_of } from "./words.js";
 
 export function element(tag, text = "", attributes = {}) {
   const made = document.createElement(tag);
@@ -16,16 +15,13 @@ function set_text(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }
 
-/// A car's number on its colour.
 function badge(run, vehicle) {
-  const made = element("span", String(vehicle.id), { class: "badge" });
   const index = colour_index(run, vehicle);
-  made.style.background = `var(--car-${index})`;
-  made.style.color = `var(--ink-${index})`;
-  return made;
+  const style = `background: var(--car-${index}); color: var(--ink-${index})`;
+  return element("span", vehicle.id, { class: "badge", style });
 }
 
-/// The list of all cars with their states. @param select  called with the id of a clicked car
+/// @param select  called with the id of a clicked car
 export class CarList {
   constructor(body, run, select) {
     this.run = run;
@@ -65,7 +61,6 @@ export class CarList {
   }
 }
 
-/// The report of the selected car in the step shown.
 export class Report {
   constructor(title, list, run, select) {
     Object.assign(this, { title, list, run, select, shown: "" });
@@ -86,21 +81,22 @@ export class Report {
       const parts = is_text ? [content] : content.map((id) => this.car_button(id));
       const value = element("dd", "", { "data-row": name });
       value.append(...(parts.length ? parts : ["none"]));
-      this.list.append(element("dt", name), value);
+      const title = kTerms[name];
+      this.list.append(element("dt", name, title && { title }), value);
     }
   }
 
   car_button(id) {
     const vehicle = this.run.vehicle(id);
     if (!vehicle) return element("span", `car ${id} `);
-    const button = element("button", "", { class: "car", title: `show the report of car ${id}` });
+    const button = element("button", "", { class: "car" });
     button.append(badge(this.run, vehicle), ` car ${id}`);
     button.addEventListener("click", () => this.select(id));
     return button;
   }
 }
 
-/// What the processes logged. Lines with a time of the run show it, and lead there.
+/// What the processes logged. Lines with a time of the run lead there.
 export class Log {
   constructor(list, run, seek) {
     this.list = list;
@@ -131,9 +127,8 @@ export class Log {
   }
 }
 
-/// The line about the whole run: what was driven, how it ended.
 export function run_words(about) {
-  const parts = [
+  return [
     `${about.vehicles.length} cars`,
     `profile ${about.profile}`,
     about.time,
@@ -141,15 +136,17 @@ export function run_words(about) {
     `subgraph ${about.subgraph}`,
     `horizon ${about.horizon_steps} steps of ${about.step_s} s`,
     about.engine,
+    about.policy === "none" ? "" : `policy ${about.policy}`,
+    about.rounds === "two" ? "two rounds of messages" : "",
     `revision ${about.revision}`,
-  ];
-  if (about.policy !== "none") parts.push(`policy ${about.policy}`);
-  return parts.join(", ");
+  ].filter(Boolean).join(", ");
 }
 
 export function fault_words(about) {
-  const parts = about.died.map(([process, sign]) => `${process}: ${sign}`);
-  parts.unshift(...[about.reason, about.fault].filter(Boolean));
-  if (about.exit_code !== 0) parts.push(`exit code ${about.exit_code}`);
-  return parts.join("; ");
+  return [
+    about.reason.startsWith("died: ") ? "" : about.reason,
+    ...about.died.map(([process, sign]) => `${process} died (${sign})`),
+    about.fault,
+    about.exit_code === 0 ? "" : `exit code ${about.exit_code}`,
+  ].filter(Boolean).join("; ");
 }

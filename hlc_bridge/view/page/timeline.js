@@ -8,10 +8,15 @@ const kRight_px = 16;
 
 /// How strongly a step of this kind shows its car's colour, otherwise kFaint.
 const kFaint = 0.2;
-const kOpacities = { drives: 0.7, standby: 0.05, silent: 0 };
-/// Marks distinguish kinds without colours: [name of the mark's colour, slope of its lines; 0: a
-/// full box].
-const kMarks = { waits: ["text", 1], fallback: ["alarm", 0], stop: ["alarm", -1] };
+const kOpacities = { drives: 0.7, standby: 0.05, unknown: 0, silent: 0 };
+/// Marks distinguish kinds without colours: [its colour's name, slope of its lines; 0: a full box].
+const kMarks = {
+  waits: ["text", 1],
+  stuck: ["alarm", 1],
+  fallback: ["alarm", 0],
+  stop: ["alarm", -1],
+  late: ["alarm", 0],
+};
 
 function draw_step(context, kind, { left, top, width, height }, fill, colours) {
   const [colour, slope] = kMarks[kind] || [];
@@ -24,8 +29,7 @@ function draw_step(context, kind, { left, top, width, height }, fill, colours) {
   context.beginPath();
   context.rect(left, top, width, height);
   context.clip();
-  context.strokeStyle = colours[colour];
-  context.lineWidth = 2;
+  Object.assign(context, { strokeStyle: colours[colour], lineWidth: 2 });
   context.beginPath();
   for (let x = left - height; x < left + width; x += 5) {
     context.moveTo(x, slope > 0 ? top + height : top);
@@ -35,7 +39,7 @@ function draw_step(context, kind, { left, top, width, height }, fill, colours) {
   context.restore();
 }
 
-/// Context of the canvas, cleared, with one unit per px of the page.
+/// Cleared, with one unit per px of the page.
 function clean_context(canvas) {
   const ratio = adapt(canvas);
   const context = canvas.getContext("2d");
@@ -49,14 +53,14 @@ function stretches_of(run, vehicle) {
   const stretches = [];
   for (let k = 0; k < run.num_steps; ++k) {
     const kind = kind_in(run, vehicle, k);
-    const last = stretches[stretches.length - 1];
+    const last = stretches.at(-1);
     if (last && last.kind === kind) last.to = k + 1;
     else stretches.push({ kind, from: k, to: k + 1 });
   }
   return stretches;
 }
 
-/// Round distance of marks, so that about `count` of them fit into the span.
+/// Distance of up to `count` marks in the span.
 function round_distance(span, count) {
   const power = 10 ** Math.floor(Math.log10(span / count));
   return [1, 2, 5, 10].map((m) => m * power).find((d) => span / d <= count);
@@ -75,32 +79,31 @@ export class TimeLine {
     this.canvas.style.height = `${run.vehicles.length * this.row_px + 20}px`;
   }
 
+  get width() {
+    return Math.max(1, this.canvas.clientWidth - kLeft_px - kRight_px);
+  }
+
   x_of(t) {
-    const width = this.canvas.clientWidth - kLeft_px - kRight_px;
-    return kLeft_px + (width * t) / Math.max(this.run.end_s, 1e-9);
+    return kLeft_px + (this.width * t) / Math.max(this.run.end_s, 1e-9);
   }
 
   /// May be outside the run.
   time_at(x) {
-    const width = Math.max(1, this.canvas.clientWidth - kLeft_px - kRight_px);
-    return ((x - kLeft_px) / width) * this.run.end_s;
+    return ((x - kLeft_px) / this.width) * this.run.end_s;
   }
 
-  /// Vehicle of the row at y; undefined: none.
   vehicle_at(y) {
     return this.run.vehicles[Math.floor(y / this.row_px)];
   }
 
-  /// All but the time shown, which is an element above it: drawn when the selection or the size
-  /// changes, not in every frame.
+  /// All but the time shown, an element above it that moves in every frame.
   draw({ selected }) {
     const context = clean_context(this.canvas);
     this.run.vehicles.forEach((vehicle, row) => {
       const y = row * this.row_px;
       const is_selected = vehicle.id === selected;
       context.font = `${is_selected ? 700 : 400} ${Math.min(11, this.row_px - 1)}px sans-serif`;
-      context.textAlign = "right";
-      context.textBaseline = "middle";
+      Object.assign(context, { textAlign: "right", textBaseline: "middle" });
       context.fillStyle = this.colours.text;
       const name = `${is_selected ? "> " : ""}${vehicle.id}`;
       context.fillText(name, kLeft_px - 5, y + this.row_px / 2);
@@ -119,10 +122,8 @@ export class TimeLine {
 
   draw_marks(context) {
     const distance_s = round_distance(Math.max(this.run.end_s, 1), 12);
+    Object.assign(context, { textAlign: "center", textBaseline: "bottom", font: "10px sans-serif" });
     context.fillStyle = this.colours.muted;
-    context.font = "10px sans-serif";
-    context.textAlign = "center";
-    context.textBaseline = "bottom";
     for (let i = 0; i * distance_s <= this.run.end_s + 1e-9; ++i) {
       const x = this.x_of(i * distance_s);
       context.fillRect(x, this.canvas.clientHeight - 16, 1, 4);
@@ -132,9 +133,11 @@ export class TimeLine {
   }
 }
 
-/// One canvas per kind that occurs in the run, with its words.
+/// The kinds that occur in the run.
 export function fill_legend(element, time_line) {
   const kinds = new Set(time_line.stretches.flat().map(({ kind }) => kind));
+  const is_late = ({ steps }) => steps.some((report) => report.is_late);
+  if (time_line.run.vehicles.some(is_late)) kinds.add("late");
   element.replaceChildren();
   for (const [kind, words] of Object.entries(kKinds)) {
     if (!kinds.has(kind)) continue;
@@ -148,8 +151,7 @@ export function fill_legend(element, time_line) {
   }
 }
 
-/// Planning times of one car, or the largest of all, against the length of a step, on a logarithmic
-/// scale: a bar per step, the step's length as a line.
+/// Planning times of one car, or the largest of all: a bar per step, the step's length as a line.
 export function draw_planning(canvas, time_line, { selected }) {
   const { run, colours } = time_line;
   const context = clean_context(canvas);

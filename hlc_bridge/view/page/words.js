@@ -29,36 +29,40 @@ function reason_words(report) {
 
 /// {kind, words, short}: kind is one of kKinds, short a label for the map, empty: none.
 export function state_of(run, vehicle, t) {
+  const state = (kind, words, short = "") => ({ kind, words, short });
   const report = run.report_at(vehicle, t);
-  if (!report) return { kind: "silent", words: "no report in this step", short: "no report" };
+  if (!report) return state("silent", "no report in this step", "no report");
   const driven = run.driven_at(vehicle, t);
-  const stands = !driven || Math.abs(driven.speed) < 0.025 /* m/s */;
+  const stands = driven && Math.abs(driven.speed) < 0.025; // m/s
   if (report.status === "minimal_risk_stop") {
-    const how = stands ? "stands" : "drives its plan to the end";
-    return { kind: "stop", words: `minimal-risk stop: ${how}`, short: "stop" };
+    const motion = stands ? "stands" : "drives its plan to the end";
+    return state("stop", `minimal-risk stop: ${driven ? motion : kKinds.unknown}`, "stop");
   }
-  const wait = wait_words(run, report, t);
+  const since_s = report.waits_since * run.step_s;
+  const wait = wait_words(report, since_s, t);
   if (report.status === "fallback") {
     const words = `keeps its plan: ${reason_words(report)}${wait ? `; ${wait}` : ""}`;
-    return { kind: "fallback", words, short: `kept plan: ${report.reason.replace("_", " ")}` };
+    return state("fallback", words, `kept plan: ${report.reason.replace("_", " ")}`);
   }
   if (wait) {
-    return { kind: "waits", words: wait, short: `waits for ${report.waits_for.join(", ")}` };
+    const short = `waits for ${report.waits_for.join(", ")}`;
+    const is_stuck = t - since_s >= run.about.stuck_after_s;
+    if (is_stuck) return state("stuck", `stuck: ${wait}`, `stuck, ${short}`);
+    return state("waits", wait, short);
   }
   if (report.status === "standby") {
     const where = report.reason === "off_route" ? ", off every route" : "";
-    return { kind: "standby", words: `stands by for the start${where}`, short: "" };
+    return state("standby", `stands by for the start${where}`);
   }
-  if (stands) return { kind: "stands", words: "stands", short: "" };
-  return { kind: "drives", words: `drives, ${Math.abs(driven.speed).toFixed(2)} m/s`, short: "" };
+  if (!driven) return state("unknown", kKinds.unknown, "not recorded");
+  if (stands) return state("stands", "stands");
+  return state("drives", `drives, ${Math.abs(driven.speed).toFixed(2)} m/s`);
 }
 
-function wait_words(run, report, t) {
-  if (report.waits_for.length === 0) return "";
-  const since_s = report.waits_since * run.step_s;
+function wait_words({ waits_for }, since_s, t) {
+  if (waits_for.length === 0) return "";
   const for_s = Math.max(0, t - since_s);
-  const who = ids_text(report.waits_for);
-  return `waits for ${who} since ${seconds(since_s)} (for ${seconds(for_s)})`;
+  return `waits for ${ids_text(waits_for)} since ${seconds(since_s)} (for ${seconds(for_s)})`;
 }
 
 /// Kinds of state, with what the time line's legend calls them.
@@ -66,10 +70,23 @@ export const kKinds = {
   drives: "drives",
   stands: "stands",
   waits: "waits for others",
+  stuck: "stuck: waits for long",
   fallback: "keeps its old plan (fallback)",
   stop: "minimal-risk stop",
   standby: "standby",
+  unknown: "no driven path recorded",
   silent: "no report",
+  late: "deadline missed (lowest strip)", // no state, but a mark of the strip of planning times
+};
+
+/// What terms of the report mean.
+export const kTerms = {
+  state: "waits: without the others it would drive; stuck: it waits for long",
+  status: "planned: a new plan; fallback: the former plan stays in force, and why",
+  "coupled with": "cars that may come close soon: they plan one after the other",
+  maneuver: "driven in this step; named after its criterion, or trim: constant speed and steering",
+  subgraph: "the trims and maneuvers that it may use",
+  level: "0 plans first, the others wait for the plans of lower levels",
 };
 
 /// The kind of a whole step, for the time line.
@@ -78,7 +95,7 @@ export function kind_in(run, vehicle, k) {
 }
 
 const kQualities = {
-  none: "no plan was found or searched",
+  none: "no plan was found",
   optimal: "optimal",
   budget: "the search stopped early",
   unproven: "not proven optimal",
@@ -132,7 +149,7 @@ export function report_rows(run, vehicle, t) {
     ["cost", quality === "none" ? "none" : `${report.cost_m2.toFixed(4)} m2`],
     ["planning time", planning_words(run, report)],
     ["vertices", `${report.generated} generated, ${report.expanded} expanded`],
-    ["level", level === 0 ? "0 (plans first)" : String(level)],
+    ["level", String(level)],
     ["deviation", `${millimetres(report.deviation_m)} outside the planned footprint`],
   ];
 }

@@ -84,7 +84,7 @@ class NotesOfRounds : public testing::Test {
     static_cast<void>(two->stand_by(at(k - 1, states)));
     loop_.receive(two->observe(at(k, states)));
     static_cast<void>(loop_.proceed());
-    notes_.note_rounds(*loop_.two_rounds(), actions_);
+    notes_.note_rounds({1}, *loop_.two_rounds(), actions_);
     static_cast<void>(loop_.proceed());
     static_cast<void>(loop_.proceed());
   }
@@ -104,11 +104,27 @@ TEST_F(NotesOfRounds, LogOnceForWhomVehiclesPlanOneAfterTheOther) {
   static_cast<void>(loop_.stand_by(at(99, {seen(1, 0.0, 0.0), seen(2, 0.0, 0.3)})));
   step(100);
   step(101);
-  EXPECT_THAT(lines_of(actions_),
-              ElementsAre(Field(&machine::LogLine::text, HasSubstr("because of vehicles 2 ("))));
+  EXPECT_THAT(
+      lines_of(actions_),
+      ElementsAre(Field(&machine::LogLine::text,
+                        HasSubstr("one after the other: vehicle 2 cannot be planned for here: not "
+                                  "seen"))));
 }
 
-TEST(OperatorNotes, LogOnceThatPlanningForAllTakesTooLong) {
+TEST(OperatorNotes, NameTheOwnVehicleAloneIfOthersCannotPlanForIt) {
+  const auto one = controller::east_bound::controller(1);
+  controller::TwoRounds rounds({});
+  rounds.choose(*one);
+  OperatorNotes notes;
+  HlcActions actions;
+  notes.note_rounds({1}, rounds, actions);
+  EXPECT_THAT(lines_of(actions),
+              ElementsAre(Field(&machine::LogLine::text,
+                                HasSubstr("the others cannot plan for this vehicle 1: it is not "
+                                          "seen, misses another controller"))));
+}
+
+TEST(OperatorNotes, LogOnceThatStepsEndLateWithoutNamingPlanningAloneAsTheCause) {
   const auto one = controller::east_bound::controller(1);
   controller::TwoRounds rounds({});
   OperatorNotes notes;
@@ -116,10 +132,11 @@ TEST(OperatorNotes, LogOnceThatPlanningForAllTakesTooLong) {
   for (std::uint64_t k = 100; k < 110; ++k) {
     static_cast<void>(one->stand_by(at(k, {seen(1, 0.0, 0.0)})));
     rounds.end_late(*one);
-    notes.note_rounds(rounds, actions);
+    notes.note_rounds({1}, rounds, actions);
   }
   EXPECT_THAT(lines_of(actions),
-              ElementsAre(Field(&machine::LogLine::text, HasSubstr("3 late steps within 50"))));
+              ElementsAre(Field(&machine::LogLine::text,
+                                HasSubstr("3 of 50 steps with two rounds ended late"))));
 }
 
 }  // namespace

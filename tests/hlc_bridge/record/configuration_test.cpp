@@ -36,7 +36,11 @@ TEST(Configuration, MissingFileIsNamed) {
 
 TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
   const test::TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "configuration");
+  const std::filesystem::path configuration = folder / "configuration";
+  for (const char* name : {"scenarios/s.yaml", "maps/m.xml"}) {
+    std::filesystem::create_directories((configuration / name).parent_path());
+    test::put(configuration / name, "copy");
+  }
   const scenario::ScenarioChoices choices{.file = "/home/anna's/scenarios/s.yaml",
                                           .profile = "2022",
                                           .engine = {},
@@ -62,7 +66,8 @@ TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
 
 TEST(Configuration, ReadsWhatTheScriptWrites) {
   const test::TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "configuration");
+  std::filesystem::create_directories(folder / "configuration" / "scenarios");
+  test::put(folder / "configuration" / "scenarios" / "circle.yaml", "copy");
   test::put(
       folder / "configuration" / "flags.yaml",
       "scenario: '/a/scenarios/circle.yaml'\nprofile: 'default'\nengine: null\nsubgraph: null\n"
@@ -73,6 +78,85 @@ TEST(Configuration, ReadsWhatTheScriptWrites) {
   EXPECT_EQ(kept.policy, std::nullopt);
   EXPECT_EQ(kept.map_file, std::nullopt);
   EXPECT_EQ(kept.cars, 6U);
+}
+
+/// A run of circle.yaml with six cars and noise, whose scenario is copied.
+class ChoicesOfRun : public testing::Test {
+ protected:
+  ChoicesOfRun() {
+    std::filesystem::create_directories(scenario_.parent_path());
+    test::put(scenario_, "cars: 4\n");
+    test::put(flags_,
+              "scenario: '/a/scenarios/circle.yaml'\nprofile: '2022'\nengine: null\ncars: 6\n"
+              "noise_seed: 3\n");
+  }
+
+  [[nodiscard]] RunChoices choices(const RunChoices& given) const {
+    return choices_of_run(folder_.path(), given);
+  }
+  void expect_refusal(const RunChoices& given, const std::string& message) const {
+    EXPECT_THAT([&] { static_cast<void>(choices(given)); },
+                ThrowsMessage<std::invalid_argument>(message + ": the run was driven so (" +
+                                                     flags_.string() + ")"));
+  }
+  static RunChoices nothing() { return {.scenario = {.profile = ""}, .noise_seed = {}}; }
+
+  test::TemporaryFolder folder_;
+  std::filesystem::path scenario_{folder_ / "configuration" / "scenarios" / "circle.yaml"};
+  std::filesystem::path flags_{folder_ / "configuration" / "flags.yaml"};
+};
+
+TEST_F(ChoicesOfRun, AreThoseOfItsFolder) {
+  const RunChoices run = choices(nothing());
+  EXPECT_EQ(run.scenario.file, scenario_);
+  EXPECT_EQ(run.scenario.profile, "2022");
+  EXPECT_EQ(run.scenario.cars, 6U);
+  EXPECT_EQ(run.noise_seed, 3U);
+}
+
+TEST_F(ChoicesOfRun, MayBeRepeated) {
+  test::put(folder_ / "circle.yaml", "cars: 4\n");
+  const RunChoices run =
+      choices({.scenario = {.file = folder_ / "circle.yaml", .profile = "2022", .cars = 6},
+               .noise_seed = 3});
+  EXPECT_EQ(run.scenario.file, scenario_);
+}
+
+TEST_F(ChoicesOfRun, AreNotContradicted) {
+  RunChoices given = nothing();
+  given.scenario.cars = 5;
+  expect_refusal(given, "--cars = 5, must be 6");
+  given = nothing();
+  given.scenario.profile = "default";
+  expect_refusal(given, "--profile = default, must be 2022");
+  given = nothing();
+  given.scenario.subgraph = "D";
+  expect_refusal(given, "--subgraph = D, must be left out");
+  given = nothing();
+  given.noise_seed = 4;
+  expect_refusal(given, "--noise_seed = 4, must be 3");
+  given = nothing();
+  given.scenario.file = folder_ / "circle.yaml";
+  test::put(given.scenario.file, "cars: 5\n");
+  expect_refusal(given, "--scenario = " + given.scenario.file.string() + ", must be " +
+                            scenario_.string() + ", or the same");
+}
+
+TEST_F(ChoicesOfRun, WithoutFlagsAreThoseThatAreGiven) {
+  std::filesystem::remove(flags_);
+  RunChoices given = nothing();
+  EXPECT_THAT([&] { static_cast<void>(choices(given)); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("--scenario must be given")));
+  given.scenario.file = folder_ / "circle.yaml";
+  given.scenario.cars = 5;
+  EXPECT_EQ(choices(given).scenario.file, given.scenario.file);
+  EXPECT_EQ(choices(given).scenario.profile, "default");
+  EXPECT_EQ(choices(given).scenario.cars, 5U);
+}
+
+TEST_F(ChoicesOfRun, OfAFileThatIsNotCopiedYetLeadToTheFile) {
+  std::filesystem::remove(scenario_);
+  EXPECT_EQ(choices(nothing()).scenario.file, "/a/scenarios/circle.yaml");
 }
 
 TEST(Configuration, FolderWithoutFlagsIsNamed) {

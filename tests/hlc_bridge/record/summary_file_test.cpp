@@ -46,7 +46,7 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
                   "steps", "vehicles", "generated_vertices_sum_max", "min_footprint_distance_m",
                   "collisions", "wall_s", "realtime_factor", "response_time_ms", "trace_sha256",
                   "revision", "host", "engine", "expanded_vertices_sum_max", "policy",
-                  "longest_wait_s", "stuck_vehicles"));
+                  "longest_wait_s", "stuck_vehicles", "rounds"));
   const auto& vehicle = json["vehicles"][0];
   EXPECT_THAT(keys(vehicle), ElementsAre("id", "name", "lap_s", "reference_error_mm",
                                          "tracking_error_mm", "generated_vertices",
@@ -60,6 +60,13 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
   EXPECT_THAT(keys(vehicle["expanded_vertices"]), ElementsAre("max", "mean"));
   EXPECT_THAT(keys(vehicle["planning_time_ms"]), ElementsAre("mean", "std", "p99", "max"));
   EXPECT_THAT(keys(json["host"]), ElementsAre("cpu", "cores", "kernel"));
+}
+
+TEST(SummaryFile, NamesTheRoundsOfMessages) {
+  result::RunSummary summary = some_summary();
+  EXPECT_EQ(nlohmann::json::parse(summary_json(summary))["rounds"], "sequential");
+  summary.description.has_two_rounds = true;
+  EXPECT_EQ(nlohmann::json::parse(summary_json(summary))["rounds"], "two");
 }
 
 TEST(SummaryFile, UnitsAreThoseOfTheKeys) {

@@ -81,9 +81,11 @@ TEST(Encounters, OnlyTheAskedTimeCounts) {
   EXPECT_NEAR(result.min_distance_m.value(), 0.4 - 0.22, 1e-12);
 }
 
-TEST(Encounters, VehicleWhoseRecordEndsCanStillBeHit) {
+TEST(Encounters, AVehicleIsNotComparedBeyondTheEndOfItsRecord) {
   const Drives drives{{1, drive({{0, 0, 0}})}, {2, drive({{1, 0, 0}, {0.5, 0, 0}, {0.1, 0, 0}})}};
-  EXPECT_EQ(encounters(vehicles(2), drives, 0, kLongTime).collisions, 1U);
+  const Encounters result = encounters(vehicles(2), drives, 0, kLongTime);
+  EXPECT_EQ(result.collisions, 0U);
+  EXPECT_NEAR(result.min_distance_m.value(), 1.0 - 0.22, 1e-12);
 }
 
 TEST(Encounters, OneVehicleHasNone) {

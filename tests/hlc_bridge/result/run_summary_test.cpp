@@ -176,6 +176,12 @@ TEST_F(RunSummaryTest, TrackingIsLookedAtBetweenTheStepsToo) {
   EXPECT_EQ(summary().vehicles.at(0).steps_outside_announced_area, 1U);
 }
 
+TEST_F(RunSummaryTest, TheTableNamesTwoRounds) {
+  EXPECT_EQ(summary_table(summary()).find("rounds"), std::string::npos);
+  description_.has_two_rounds = true;
+  EXPECT_NE(summary_table(summary()).find("subgraph B, two rounds, profile"), std::string::npos);
+}
+
 TEST_F(RunSummaryTest, StepsWhosePlanOrCommandIsNotSentAreCountedAndTold) {
   EXPECT_EQ(summary().vehicles.at(0).undrivable_steps, 0U);
   EXPECT_EQ(summary_table(summary()).find("commands not sent"), std::string::npos);

@@ -355,6 +355,101 @@ TEST_F(PageInBrowser, AnAddressLeadsToAMomentAndACar) {
   EXPECT_EQ(result.at("theme"), "dark");
 }
 
+TEST_F(PageInBrowser, TheAddressFollowsTheMoment) {
+  const json result = result_of(sample_run(3, 20), R"(
+    page.select(3);
+    at(2.4);
+    await new Promise((done) => setTimeout(done, 1000));
+    result.address = location.hash;
+  )");
+  EXPECT_EQ(result.at("address"), "#t=2.40&car=3");
+}
+
+TEST_F(PageInBrowser, ACarWithoutARecordIsNotShownAsStanding) {
+  FinishedRun run = sample_run(3, 20);
+  result::Drive& cut_off = run.drives.at(1);
+  cut_off.resize(cut_off.size() / 2);
+  run.drives.erase(3);
+  const json result = result_of(run, R"(
+    at(3);
+    result.states = [...by_id("cars").rows].map((row) => row.cells[2].textContent);
+    result.legend = text("legend");
+  )");
+  EXPECT_EQ(result.at("states").at(0), "no driven path recorded");
+  EXPECT_EQ(result.at("states").at(2), "no driven path recorded");
+  EXPECT_THAT(result.at("legend"), HasSubstr("no driven path recorded"));
+}
+
+TEST_F(PageInBrowser, ACarThatWaitsForLongIsStuck) {
+  const json result = result_of(sample_run(3, 120), R"(
+    page.select(2);
+    at(20.9);
+    result.before = row("state");
+    at(21.1);
+    result.after = row("state");
+    result.legend = text("legend");
+  )");
+  EXPECT_THAT(result.at("before"), StartsWith("waits for car 1"));
+  EXPECT_THAT(result.at("after"), StartsWith("stuck: waits for car 1"));
+  EXPECT_THAT(result.at("legend"), HasSubstr("stuck"));
+}
+
+TEST_F(PageInBrowser, TheLegendNamesMissedDeadlinesIfThereAreAny) {
+  const char* const script = "result.legend = text('legend');";
+  FinishedRun run = sample_run(3, 20);
+  EXPECT_THAT(result_of(run, script).at("legend"), testing::Not(HasSubstr("deadline missed")));
+  run.rows.at(5).record.deadline_missed = true;
+  EXPECT_THAT(result_of(run, script).at("legend"), HasSubstr("deadline missed (lowest strip)"));
+}
+
+TEST_F(PageInBrowser, LegendAndCaptionDoNotOverlapOnANarrowPage) {
+  const json result = result_of(sample_run(3, 20), R"(
+    document.body.style.width = "900px";
+    page.draw_static();
+    const [a, b] = ["legend", "planning_title"].map((id) => by_id(id).getBoundingClientRect());
+    result.apart = a.bottom <= b.top || a.right <= b.left;
+  )");
+  EXPECT_EQ(result.at("apart"), true);
+}
+
+TEST_F(PageInBrowser, LabelsOfCarsCloseTogetherDoNotOverlap) {
+  const json result = result_of(sample_run(3, 20), R"(
+    const taken = [{ x: 200, y: 214, half: 8 }];
+    for (const x of [200, 220, 240]) page.map.draw_label("waits for 1", x, 210, taken);
+    result.apart = taken.every((a, i) => taken.slice(i + 1).every(
+      (b) => Math.abs(a.y - b.y) >= 13 || Math.abs(a.x - b.x) >= a.half + b.half));
+  )");
+  EXPECT_EQ(result.at("apart"), true);
+}
+
+TEST_F(PageInBrowser, TermsOfTheReportAreExplained) {
+  const json result = result_of(sample_run(3, 20), R"(
+    page.select(1);
+    page.draw();
+    for (const term of document.querySelectorAll("#report dt")) result[term.textContent] = term.title;
+  )");
+  EXPECT_THAT(result.at("state"), HasSubstr("stuck"));
+  EXPECT_THAT(result.at("status"), HasSubstr("fallback: the former plan stays in force"));
+  EXPECT_THAT(result.at("subgraph"), HasSubstr("trims and maneuvers"));
+  EXPECT_THAT(result.at("maneuver"), HasSubstr("criterion"));
+}
+
+TEST_F(PageInBrowser, TheHeaderNamesADeathOnceAndTwoRounds) {
+  FinishedRun run = sample_run(3, 20);
+  run.description.has_two_rounds = true;
+  run.facts.exit_code = 4;
+  run.facts.reason = "died: middleware_2";
+  run.facts.died = {{"middleware_2", "it left"}};
+  run.fault = "vehicle_2.csv ends early";
+  const json result = result_of(run, R"(
+    result.about = text("about");
+    result.fault = text("fault");
+  )");
+  EXPECT_THAT(result.at("about"), HasSubstr("two rounds of messages"));
+  EXPECT_EQ(result.at("fault"),
+            "middleware_2 died (it left); vehicle_2.csv ends early; exit code 4");
+}
+
 TEST_F(PageInBrowser, NoRequestLeaves) {
   const json result = result_of(sample_run(3, 20), R"(
     at(1);

@@ -101,6 +101,13 @@ TEST(PageMessages, WhatWasDrivenBeforeTheStartIsLeftOut) {
   EXPECT_EQ(of_kind(run, "drive").at(0).at("begin_ms"), 0);
 }
 
+TEST(PageMessages, NamesTheRoundsOfMessages) {
+  FinishedRun run = sample_run(1, 20);
+  EXPECT_EQ(of_kind(run, "run").at(0).at("rounds"), "sequential");
+  run.description.has_two_rounds = true;
+  EXPECT_EQ(of_kind(run, "run").at(0).at("rounds"), "two");
+}
+
 TEST(PageMessages, ACarThatIsNotInTheRunIsLeftOut) {
   FinishedRun run = sample_run(3, 20);
   run.facts.vehicle_ids = {1, 2};

@@ -402,21 +402,63 @@ TEST_F(Evaluate, KeepsRunFoldersThatTheExportAndTheSummaryRead) {
   EXPECT_EQ(json["trace_sha256"], results()["runs"][2]["trace_sha256"]);
 }
 
-TEST_F(Evaluate, TheSummaryOfARunHasAPageWhereItCanAndShouldBeWritten) {
-  ASSERT_EQ(evaluate("--keep_runs").exit_code, 0);
-  const std::filesystem::path run = out_ / "runs" / "2";
-  const std::filesystem::path page = run / "run.html";
-  const std::string summarize = "summarize --subgraph D --run " + run.string() + " --scenario " +
-                                run.string() + "/configuration/scenarios/paper_red_alone.yaml";
-  EXPECT_EQ(run_program(summarize + " --page false").exit_code, 0);
-  EXPECT_FALSE(std::filesystem::exists(page));
-  EXPECT_EQ(run_program(summarize).exit_code, 0);
-  EXPECT_THAT(text_of(page), HasSubstr("\"scenario\":\"paper_red_alone\""));
-  std::filesystem::remove(page);
-  std::filesystem::create_directory(page);
-  const Outcome refused = run_program(summarize);
-  EXPECT_EQ(refused.exit_code, 0) << "the result is written";
+/// A run of 20 steps of paper_red_alone, on subgraph D, and its summary.
+class SummaryOfARun : public Evaluate {
+ protected:
+  void SetUp() override { ASSERT_EQ(evaluate("--keep_runs").exit_code, 0); }
+
+  [[nodiscard]] Outcome summarize(const std::string& flags = "") const {
+    return run_program("summarize --run " + run_.string() + " " + flags);
+  }
+  /// Leaves the first half of a file of the run.
+  void cut(const std::string& name) const {
+    const std::string text = text_of(run_ / name);
+    put(run_ / name, text.substr(0, text.size() / 2));
+  }
+
+  std::filesystem::path run_{out_ / "runs" / "2"};
+  std::filesystem::path page_{run_ / "run.html"};
+};
+
+TEST_F(SummaryOfARun, EndsWithTheNameOfItsPage) {
+  const Outcome outcome = summarize();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, testing::EndsWith("\nrun folder: " + run_.string() +
+                                                "\nthe run as a page: " + page_.string() + "\n"));
+  EXPECT_THAT(text_of(page_), HasSubstr("\"scenario\":\"paper_red_alone\""));
+}
+
+TEST_F(SummaryOfARun, WithoutAPageLeavesNoOldOne) {
+  ASSERT_EQ(summarize().exit_code, 0);
+  const Outcome outcome = summarize("--page false");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(page_));
+  EXPECT_THAT(outcome.output, testing::EndsWith("\nrun folder: " + run_.string() + "\n"));
+}
+
+TEST_F(SummaryOfARun, WhosePageCannotBeWrittenEndsWithCodeTwo) {
+  std::filesystem::create_directory(page_);
+  const Outcome refused = summarize();
+  EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.output, HasSubstr("summarize: no run.html: "));
+  EXPECT_TRUE(std::filesystem::exists(run_ / "summary.json")) << "the result is written";
+}
+
+TEST_F(SummaryOfARun, RefusesChoicesOfAnotherRun) {
+  const Outcome refused = summarize("--subgraph B");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.output, testing::StartsWith("summarize: --subgraph = B, must be D: "));
+  EXPECT_EQ(std::ranges::count(refused.output, '\n'), 1) << refused.output;
+}
+
+TEST_F(SummaryOfARun, NamesRecordsThatAreCutOff) {
+  cut("reports.csv");
+  cut("vehicle_1.csv");
+  const Outcome outcome = summarize();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr(": reports.csv ends early: "));
+  EXPECT_THAT(outcome.output, HasSubstr(": vehicle_1.csv ends early, at "));
+  EXPECT_THAT(text_of(page_), HasSubstr("vehicle_1.csv ends early, at "));
 }
 
 TEST_F(Evaluate, KeepsRunFoldersAlsoOfRunsThatAreThereAlready) {

@@ -52,6 +52,23 @@ TEST(FaultSimulator, HelpIsGoodAndNamesTheExitCodes) {
   EXPECT_NE(output.find("Exit codes"), std::string::npos);
 }
 
+TEST(FaultSimulator, FindsItsScenariosFromAnyFolder) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path("/");
+  const test::Outcome outcome = test::run_program("fault_simulator --cars 3 --runs 1 --seed 1");
+  std::filesystem::current_path(before);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+}
+
+TEST(FaultSimulator, NamesAScenarioThatIsMissing) {
+  const test::TemporaryFolder folder;
+  const auto [exit_code, output] = test::run_program(
+      "fault_simulator --cars 3 --runs 1 --scenario_folder " + folder.path().string());
+  EXPECT_EQ(exit_code, 2) << output;
+  EXPECT_NE(output.find((folder / "paper_three_cars.yaml").string()), std::string::npos) << output;
+  EXPECT_EQ(std::ranges::count(output, '\n'), 1) << output;
+}
+
 TEST(FaultSimulator, SaysWhatManyRunsCameTo) {
   const auto [exit_code, output] = run_simulator("--cars 3 --runs 4 --seed 1 --jobs 2");
   EXPECT_EQ(exit_code, 0) << output;
