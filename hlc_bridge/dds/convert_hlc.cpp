@@ -178,7 +178,7 @@ bool is_valid(const ReportMessage& wire) {
          wire.subgraph().size() <= kMaxText &&
          all_finite(wire.cost_m2(), wire.gap_m2(), wire.deviation_m()) &&
          is_valid(wire.coupled()) && is_valid(wire.missing()) && is_valid(wire.waits_for()) &&
-         wire.waits_since() <= wire.step();
+         is_valid(wire.blocked_by()) && wire.waits_since() <= wire.step();
 }
 
 }  // namespace
@@ -285,7 +285,7 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns, response_ns] = message;
   const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,
                cost_m2, quality, gap_m2, generated, expanded, level, coupled, missing, deviation_m,
-               waiting] = report;
+               waiting, blocked_by] = report;
   const auto& [waits_for, waits_since] = waiting;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
@@ -310,6 +310,7 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   wire.response_ns(response_ns);
   wire.waits_for(ids_to_wire(waits_for));
   wire.waits_since(waits_since.value);
+  wire.blocked_by(ids_to_wire(blocked_by));
 }
 
 Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
@@ -334,7 +335,8 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
       .coupled = ids_from_wire(wire.coupled()),
       .missing = ids_from_wire(wire.missing()),
       .deviation_m = wire.deviation_m(),
-      .waiting = {.vehicles = ids_from_wire(wire.waits_for()), .since = {wire.waits_since()}}};
+      .waiting = {.vehicles = ids_from_wire(wire.waits_for()), .since = {wire.waits_since()}},
+      .blocked_by = ids_from_wire(wire.blocked_by())};
   return {ReportRecord{.report = report,
                        .planning_ns = wire.planning_ns(),
                        .deadline_missed = wire.deadline_missed(),

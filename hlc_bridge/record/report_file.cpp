@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kHeading =
     "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,cost_m2,"
     "quality,gap_m2,generated,expanded,level,coupled,missing,deviation_m,planning_ns,deadline_"
-    "missed,late_ns,maneuver,subgraph,waits_for,waits_since,response_ns";
+    "missed,late_ns,maneuver,subgraph,waits_for,waits_since,response_ns,blocked_by";
 
 std::string line(const ReportRecord& record) {
   const coordination::Report& report = record.report;
@@ -30,7 +30,7 @@ std::string line(const ReportRecord& record) {
                  ids_to_text(report.missing), report.deviation_m, record.planning_ns,
                  record.deadline_missed, record.late_ns, report.maneuver, report.subgraph,
                  ids_to_text(report.waiting.vehicles), report.waiting.since.value,
-                 record.response_ns)
+                 record.response_ns, ids_to_text(report.blocked_by))
       .text();
 }
 
@@ -131,6 +131,7 @@ ReportRecord read_row(RowReader row) {
   report.waiting.vehicles = row.ids();
   report.waiting.since = StepIndex{row.whole(0, report.step.value)};
   record.response_ns = row.whole();
+  report.blocked_by = row.ids();
   return record;
 }
 

@@ -74,9 +74,11 @@ using Drives = std::map<std::uint8_t, Drive>;
 
 /// One vehicle in one step of the experiment.
 struct StepRecord {
-  std::uint64_t step{};        ///< from 0: k - k0
-  ReportRecord record;         ///< of step k
-  std::optional<Pose> driven;  ///< at t(k); none if it was not recorded
+  std::uint64_t step{};                      ///< from 0: k - k0
+  ReportRecord record;                       ///< of step k
+  std::optional<Pose> driven;                ///< at t(k); none if it was not recorded
+  std::optional<double> driven_speed_mps{};  ///< the same
+  double t_s{};                              ///< t(k) since t(k0)
 };
 
 /// A line that a process of the run logged.
@@ -95,6 +97,9 @@ struct LoggedLine {
 /// apart than 0.1 s (yaw along the shorter arc), else nothing. @pre samples by increasing time
 [[nodiscard]] std::optional<Pose> driven_pose_at(std::span<const DrivenSample> drive,
                                                  Nanoseconds t);
+/// Speed at `t`, likewise [m/s].
+[[nodiscard]] std::optional<double> driven_speed_mps_at(std::span<const DrivenSample> drive,
+                                                        Nanoseconds t);
 
 /// The reported steps among 0 ... steps - 1, by step, then vehicle; the last report of a step
 /// counts. Empty if no vehicle started.

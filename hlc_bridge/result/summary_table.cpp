@@ -52,18 +52,23 @@ std::string joined(const std::vector<VehicleId>& ids, std::size_t most) {
   return text + (ids.size() > most ? " ..." : "");
 }
 
-/// Nothing if no vehicle waited.
+/// A line for each vehicle that waited, the longest wait first.
 std::string waiting_lines(const RunSummary& summary) {
-  const double longest_s = longest_wait_s(summary);
-  const auto who = std::ranges::find_if(summary.vehicles, [&](const VehicleSummary& vehicle) {
-    return vehicle.wait && vehicle.wait->duration_s == longest_s;
+  std::vector<const VehicleSummary*> waited;
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    if (vehicle.wait) waited.push_back(&vehicle);
+  }
+  std::ranges::stable_sort(waited, [](const VehicleSummary* a, const VehicleSummary* b) {
+    return a->wait->duration_s > b->wait->duration_s;
   });
-  if (who == summary.vehicles.end()) return "";
-  std::string text = fmt::format(
-      "  longest wait for others                      {:.1f} s, vehicle {} for {}, from {:.1f} s "
-      "on\n",
-      longest_s, who->id.value, joined(who->wait->vehicles, 8),
-      static_cast<double>(who->wait->since_step) * summary.description.step_s);
+  std::string text;
+  for (const VehicleSummary* vehicle : waited) {
+    text += fmt::format(
+        "  {:<43}  {:.1f} s, vehicle {} for {}, from {:.1f} s on\n",
+        text.empty() ? "longest wait for others, of every vehicle" : "", vehicle->wait->duration_s,
+        vehicle->id.value, joined(vehicle->wait->vehicles, 8),
+        static_cast<double>(vehicle->wait->since_step) * summary.description.step_s);
+  }
   if (const std::vector<VehicleId> stuck = stuck_vehicles(summary); !stuck.empty()) {
     text += fmt::format("  stuck at the end: vehicles                   {}\n", joined(stuck, 20));
   }

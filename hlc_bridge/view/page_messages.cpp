@@ -186,6 +186,7 @@ class StepColumns {
     put("coupled", sets_.number_of(numbers_of(report.coupled)));
     put("missing", sets_.number_of(numbers_of(report.missing)));
     put("waits_for", sets_.number_of(numbers_of(report.waiting.vehicles)));
+    put("blocked_by", sets_.number_of(numbers_of(report.blocked_by)));
     put("waits_since", result::waits_since(row).value_or(0));
     put("level", report.level);
     put("generated", report.generated);

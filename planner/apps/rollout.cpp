@@ -85,7 +85,7 @@ int run(const hlc::scenario::ScenarioChoices& choices) {
     wall += std::chrono::steady_clock::now() - begin;
     for (std::size_t j = 0; j < reports.size(); ++j) {
       hlc::coordination::Report& report = reports[j];
-      rollout.controllers()[j]->note_waiting(report);
+      rollout.controllers()[j]->note_causes(report);
       Tally& tally = tallies[report.vehicle];
       add(tally, report, step_s);
       if (others_changed_the_plan(*rollout.controllers()[j], *alone, report)) ++tally.changed;

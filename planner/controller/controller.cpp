@@ -315,16 +315,21 @@ coordination::Outcome Controller::vote() const {
           .wants_fallback = !step_.candidate.plan.has_value()};
 }
 
+/// None: an obstacle of the search.
+std::optional<coordination::CoupledAreas> Controller::compared_areas(VehicleId coupled) const {
+  if (step_.respected.contains(coupled)) return std::nullopt;
+  const auto received = step_.awaited.find(coupled);
+  return coordination::CoupledAreas{
+      .reachable_area_m = &neighbours_.traffic_of(coupled).reachable_area_m,
+      .predicted = received == step_.awaited.end() ? nullptr : &received->second->areas};
+}
+
 coordination::CommitVerdict Controller::decide(
-    const coordination::ReceivedMessages<coordination::Prediction>& predictions,
     const coordination::ReceivedMessages<coordination::Outcome>& outcomes) const {
   const StepIndex now = step_.observation.step;
   std::vector<coordination::CoupledAreas> coupled_areas;
   for (const VehicleId other : coupled()) {
-    if (step_.respected.contains(other)) continue;  // an obstacle of the search
-    const coordination::Prediction* message = predictions.find(other, now).get();
-    coupled_areas.push_back({.reachable_area_m = &neighbours_.traffic_of(other).reachable_area_m,
-                             .predicted = message == nullptr ? nullptr : &message->areas});
+    if (const auto areas = compared_areas(other)) coupled_areas.push_back(*areas);
   }
   std::vector<const coordination::Outcome*> votes;
   for (const VehicleId other : step_.component) {
@@ -342,19 +347,19 @@ coordination::Report Controller::commit(
     const coordination::ReceivedMessages<coordination::Outcome>& outcomes) {
   if (!options_.strategies.coordination.commit.needs_votes) note_awaited(predictions);
   if (!step_.candidate.plan) return finish(false, step_.obstacle);
-  const coordination::CommitVerdict verdict = decide(predictions, outcomes);
+  const coordination::CommitVerdict verdict = decide(outcomes);
   if (verdict == coordination::CommitVerdict::kFallback) note_opposed(outcomes);
   return finish(verdict == coordination::CommitVerdict::kInForce, reason_of(verdict));
 }
 
-/// For announced_plans and note_waiting; the predecessors' are known already.
+/// The predecessors' are known already.
 void Controller::note_awaited(
     const coordination::ReceivedMessages<coordination::Prediction>& predictions) {
   for (const VehicleId other : coupled()) {
     if (step_.respected.contains(other)) continue;
-    const auto message = predictions.find(other, step_.observation.step);
-    if (message == nullptr) step_.not_received.push_back(other);
-    if (message != nullptr && message->is_new) step_.awaited[other] = message;
+    if (auto message = predictions.find(other, step_.observation.step)) {
+      step_.awaited[other] = std::move(message);
+    }
   }
 }
 

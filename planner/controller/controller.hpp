@@ -13,13 +13,13 @@
 #include "planner/controller/candidate_search.hpp"
 #include "planner/controller/controller_options.hpp"
 #include "planner/controller/drivable_area.hpp"
+#include "planner/controller/ended_step.hpp"
 #include "planner/controller/neighbours.hpp"
 #include "planner/controller/observation.hpp"
 #include "planner/controller/plan_in_force.hpp"
 #include "planner/controller/prepared_subgraph.hpp"
 #include "planner/controller/route_tracker.hpp"
 #include "planner/controller/shared_step.hpp"
-#include "planner/controller/waits_for.hpp"
 #include "planner/coordination/coupling.hpp"
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/received_messages.hpp"
@@ -142,10 +142,11 @@ class Controller {
   [[nodiscard]] coordination::Report fall_back(coordination::FallbackReason reason);
 
   /// After the last phase of every step, once the command is published: enters in the step's report
-  /// for which vehicles this one waits (waits_for.hpp), and since when. Changes no plan. Searches
-  /// once if the plan in force stands. A late step is not examined: the waiting of the step before
+  /// which vehicles kept the new plan from coming into force (blocked_by.hpp), for which this one
+  /// waits (waits_for.hpp), and since when. Changes no plan. Searches once if the plan in force
+  /// stands or no plan was found. A late step is not examined: the waiting of the step before
   /// lasts.
-  void note_waiting(coordination::Report& report);
+  void note_causes(coordination::Report& report);
 
   /// Valid after `couple`: the senders that the phases need.
   [[nodiscard]] const std::vector<VehicleId>& predecessors() const { return step_.predecessors; }
@@ -226,12 +227,11 @@ class Controller {
     std::vector<search::HorizonProblem> entry_problems;
     /// Predictions that the search took into account
     std::map<VehicleId, std::shared_ptr<const coordination::Prediction>> respected;
-    /// New plans of other coupled vehicles
+    /// Those of other coupled vehicles, received when this one committed
     std::map<VehicleId, std::shared_ptr<const coordination::Prediction>> awaited;
     PlanCandidate candidate;
     double cost_m2{};  ///< of the candidate's first search, with the whole reference
     coordination::Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
-    std::vector<VehicleId> not_received;  ///< coupled, no prediction when this one committed
     std::vector<VehicleId> opposed;       ///< voted against the plan, or did not vote
     coordination::FallbackReason obstacle{
         coordination::FallbackReason::kNone};  ///< why nothing new may be planned
@@ -280,8 +280,8 @@ class Controller {
   [[nodiscard]] bool make_room(const search::HorizonProblem& own);
   [[nodiscard]] std::optional<coordination::OccupiedAreas> desired_areas();
   void note_awaited(const coordination::ReceivedMessages<coordination::Prediction>& predictions);
+  [[nodiscard]] std::optional<coordination::CoupledAreas> compared_areas(VehicleId coupled) const;
   [[nodiscard]] coordination::CommitVerdict decide(
-      const coordination::ReceivedMessages<coordination::Prediction>& predictions,
       const coordination::ReceivedMessages<coordination::Outcome>& outcomes) const;
   [[nodiscard]] coordination::Report finish(bool accepted, coordination::FallbackReason reason);
 

@@ -1,24 +1,24 @@
 // The other vehicles as a controller sees them in a step: obstacles of its plan, and those that its
-// vehicle waits for.
+// vehicle waits for or that keep its plan from coming into force.
 #include <algorithm>
 #include <utility>
 
+#include "planner/controller/blocked_by.hpp"
 #include "planner/controller/controller.hpp"
 #include "planner/controller/making_room.hpp"
 #include "planner/controller/self_loop.hpp"
+#include "planner/controller/waits_for.hpp"
 
 namespace hlc::controller {
 namespace {
 
-/// They prevent any motion beyond the end of the authority.
-void note_withheld(const std::vector<VehicleId>& by, std::vector<OtherVehicle>& others) {
-  for (const VehicleId holder : by) {
-    const auto known = std::ranges::find(others, holder, &OtherVehicle::vehicle);
-    if (known == others.end()) {
-      others.push_back({.vehicle = holder, .areas_m = {}, .prevents_all = true});
-    } else {
-      known->prevents_all = true;
-    }
+/// Also of vehicles that are no obstacle.
+void mark(const std::vector<VehicleId>& vehicles, bool OtherVehicle::*as,
+          std::vector<OtherVehicle>& others) {
+  for (const VehicleId vehicle : vehicles) {
+    auto other = std::ranges::find(others, vehicle, &OtherVehicle::vehicle);
+    if (other == others.end()) other = others.insert(other, {.vehicle = vehicle});
+    (*other).*as = true;
   }
 }
 
@@ -108,7 +108,7 @@ std::vector<Controller::AnnouncedPlan> Controller::announced_plans() const {
     const auto awaited = step_.awaited.find(other);
     if (respected != step_.respected.end() && respected->second->is_new) {
       plans.push_back({other, respected->second->areas});
-    } else if (awaited != step_.awaited.end()) {
+    } else if (awaited != step_.awaited.end() && awaited->second->is_new) {
       plans.push_back({other, awaited->second->areas});
     } else {
       plans.push_back({other, traffic->running});
@@ -144,26 +144,20 @@ std::optional<MotionAlone> Controller::motion_alone() {
   return MotionAlone{.plan = std::move(plan), .areas = std::move(areas)};
 }
 
-/// What planning kept clear of, a desired plan included; also the new plan that was only known when
-/// this vehicle committed to its own, or without it everything that the other one can reach.
+/// What planning kept clear of, a desired plan included; also what was only known when this vehicle
+/// committed.
 OtherVehicle Controller::as_obstacle(VehicleId coupled) const {
   const CoupledVehicle other = coupled_vehicle(coupled);
   OtherVehicle result{
       .vehicle = coupled,
       .areas_m = obstacles_m({&other, 1}, options_.strategies.coordination.obstacles, {}),
-      .prevents_all =
-          holds(other.traffic->silent, options_.vehicle) || holds(step_.opposed, coupled)};
-  const auto awaited = step_.awaited.find(coupled);
-  const bool is_unknown = holds(step_.not_received, coupled);
+      .is_out_of_contact = holds(other.traffic->silent, options_.vehicle)};
+  if (!options_.strategies.coordination.commit.needs_votes) {
+    result.compared = compared_areas(coupled);
+  }
+  if (!makes_room_for(other)) return result;
   for (std::size_t j = 0; j < result.areas_m.size(); ++j) {
-    if (makes_room_for(other)) {
-      result.areas_m[j].push_back(other.prediction->desired->during({step_.next().value + j}));
-    }
-    if (awaited != step_.awaited.end()) {
-      result.areas_m[j].push_back(awaited->second->areas.during({step_.next().value + j}));
-    } else if (is_unknown) {
-      result.areas_m[j].push_back(other.traffic->reachable_area_m);
-    }
+    result.areas_m[j].push_back(other.prediction->desired->during({step_.next().value + j}));
   }
   return result;
 }
@@ -173,26 +167,34 @@ std::vector<OtherVehicle> Controller::other_vehicles() const {
   for (const VehicleId other : coupled()) others.push_back(as_obstacle(other));
   for (const VehicleId other : neighbours_.missing()) {
     const MissingVehicle missing = missing_vehicle(other);
-    const bool prevents_all = missing.measured == nullptr || is_cut_off();
-    others.push_back({.vehicle = other,
-                      .areas_m = prevents_all ? std::vector<std::vector<ConvexPolygon>>{}
-                                              : obstacles_m({}, nullptr, {&missing, 1}),
-                      .prevents_all = prevents_all});
+    OtherVehicle result{.vehicle = other,
+                        .is_out_of_contact = missing.measured == nullptr || is_cut_off()};
+    if (!result.is_out_of_contact) result.areas_m = obstacles_m({}, nullptr, {&missing, 1});
+    others.push_back(std::move(result));
   }
-  if (authority_) note_withheld(authority_->withheld_by(), others);
+  mark(step_.opposed, &OtherVehicle::is_opposed, others);
+  if (authority_) mark(authority_->withheld_by(), &OtherVehicle::withholds_road, others);
   return others;
 }
 
-void Controller::note_waiting(coordination::Report& report) {
+void Controller::note_causes(coordination::Report& report) {
   if (report.reason != coordination::FallbackReason::kLate) {
     std::vector<VehicleId> vehicles;
     if (has_plan()) {
-      vehicles = waits_for({.report = report,
-                            .in_force = plan_in_force(),
-                            .horizon_steps = options_.horizon_steps,
-                            .is_disturbed = step_.is_disturbed,
-                            .alone = [this] { return motion_alone(); },
-                            .others = [this] { return other_vehicles(); }});
+      std::optional<std::optional<MotionAlone>> alone;  // of one search for both
+      const EndedStep step{.report = report,
+                           .in_force = plan_in_force(),
+                           .new_plan = step_.prediction.is_new ? &step_.prediction.areas : nullptr,
+                           .horizon_steps = options_.horizon_steps,
+                           .is_disturbed = step_.is_disturbed,
+                           .alone =
+                               [&] {
+                                 if (!alone) alone = motion_alone();
+                                 return *alone;
+                               },
+                           .others = [this] { return other_vehicles(); }};
+      vehicles = waits_for(step);
+      report.blocked_by = blocked_by(step);
     }
     if (vehicles.empty()) waiting_.since = {};
     if (waiting_.vehicles.empty() && !vehicles.empty()) waiting_.since = report.step;

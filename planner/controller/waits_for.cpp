@@ -29,25 +29,11 @@ bool stays_at(const coordination::Plan& plan, const Pose& pose, StepIndex first,
   return true;
 }
 
-/// The first step, from `next` on, in which the vehicle stops the motion.
-std::optional<StepIndex> stops_in(const OtherVehicle& other,
-                                  const coordination::OccupiedAreas& motion, StepIndex next) {
-  if (other.prevents_all) return next;
-  for (std::size_t j = 0; j < other.areas_m.size(); ++j) {
-    const StepIndex step{next.value + j};
-    const bool meets = std::ranges::any_of(other.areas_m[j], [&](const ConvexPolygon& area) {
-      return intersects(area, motion.during(step));
-    });
-    if (meets) return step;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::vector<VehicleId> waits_for(const EndedStep& step) {
   const StepIndex now = step.report.step;
-  const StepIndex next{now.value + 1};
+  const StepIndex next = step.next();
   const StepIndex end{next.value + step.horizon_steps};
   if (step.is_disturbed || !may_be_because_of_others(step.report)) return {};
   if (!stays_at(step.in_force, step.in_force.pose_at(now), now, end)) return {};
@@ -56,7 +42,7 @@ std::vector<VehicleId> waits_for(const EndedStep& step) {
 
   std::vector<std::pair<StepIndex, VehicleId>> stopping;
   for (const OtherVehicle& other : step.others()) {
-    if (const auto first = stops_in(other, alone->areas, next)) {
+    if (const auto first = stops_in(other, alone->areas, step)) {
       stopping.emplace_back(*first, other.vehicle);
     }
   }

@@ -1,44 +1,12 @@
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <optional>
 #include <vector>
 
-#include "planner/coordination/messages.hpp"
-#include "planner/coordination/plan.hpp"
-#include "planner/coordination/report.hpp"
+#include "planner/controller/ended_step.hpp"
 
 /// Which vehicles a standing vehicle waits for: the only place that decides on it. It explains a
 /// step that is over, and changes no plan.
 namespace hlc::controller {
-
-/// What a vehicle would do if there were no other one: its optimum, from t(k+1) on.
-struct MotionAlone {
-  coordination::Plan plan;
-  coordination::OccupiedAreas areas;
-};
-
-/// Another vehicle, as far as it limited planning in the step.
-struct OtherVehicle {
-  VehicleId vehicle;
-  /// Areas that were to be kept clear of because of it, during the steps from t(k+1) on; as many
-  /// as the horizon has steps.
-  std::vector<std::vector<ConvexPolygon>> areas_m;
-  /// It prevents any motion: it may be anywhere, does not receive this vehicle, voted against, or
-  /// holds the next piece of this vehicle's road (authority.hpp).
-  bool prevents_all{};
-};
-
-/// A step after its last phase. The functions are called only if their results are needed.
-struct EndedStep {
-  const coordination::Report& report;
-  const coordination::Plan& in_force;  ///< during the step and from then on
-  std::size_t horizon_steps{};
-  bool is_disturbed{};  ///< it is off its plan, or not seen (DeviationCheck)
-  std::function<std::optional<MotionAlone>()> alone;  ///< nothing: no plan is feasible
-  std::function<std::vector<OtherVehicle>()> others;
-};
 
 /// The vehicle waits if
 ///

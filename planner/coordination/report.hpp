@@ -78,6 +78,9 @@ struct Report {
   /// how far its footprint reaches beyond the lanes of the nearest.
   double deviation_m{};
   Waiting waiting{};  ///< for which vehicles it stands, and since when
+  /// Vehicles that kept the new plan from coming into force (planner/controller/blocked_by.hpp),
+  /// sorted; empty: none, or it was for the vehicle's own reasons.
+  std::vector<VehicleId> blocked_by;
 };
 
 }  // namespace hlc::coordination

@@ -169,6 +169,23 @@ TEST(Reasons, AVehicleThatStopsSaysSoInTheSameTurn) {
   EXPECT_EQ(violations.size(), 1U);
 }
 
+TEST(Reasons, AFallbackThatOthersCauseNamesThem) {
+  using enum coordination::FallbackReason;
+  Violations violations;
+  coordination::Report report = report_of(kOne, 1, coordination::StepStatus::kFallback);
+  for (const auto reason :
+       {kNone, kInfeasible, kLate, kDeviation, kConflict, kMissing, kNeighbour}) {
+    report.reason = reason;
+    ReasonsCheck::reported(report, 2, violations);
+  }
+  ASSERT_EQ(violations.size(), 3U);
+  EXPECT_EQ(violations[0].text,
+            "vehicle 1 falls back, conflict, and does not name because of which");
+  report.blocked_by = {kTwo};
+  ReasonsCheck::reported(report, 2, violations);
+  EXPECT_EQ(violations.size(), 3U);
+}
+
 TEST(Planning, WhoIsAbleHasPlannedOrFoundThatThereIsNoWay) {
   PlanningCheck check(100);
   Violations violations;

@@ -161,7 +161,7 @@ class Lab {
       forward(answer.command, t_now, member);
       if (answer.copy) forward(*answer.copy, t_now, member);
       reports[i].report = high_level_controller::with_answer(std::move(reports[i].report), answer);
-      member.hlc.controller().note_waiting(reports[i].report);
+      member.hlc.controller().note_causes(reports[i].report);
       report(reports[i]);
       if (reports[i].report.status == coordination::StepStatus::kStandby) continue;
       member.choice.end_step(member.hlc.controller(), reports[i].report);

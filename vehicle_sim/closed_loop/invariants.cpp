@@ -176,6 +176,19 @@ void ReasonsCheck::ended(const std::string& process, int exit_code, Nanoseconds 
        .text = process + " ended with code " + std::to_string(exit_code) + " and did not log why"});
 }
 
+void ReasonsCheck::reported(const coordination::Report& report, Nanoseconds at,
+                            Violations& violations) {
+  const bool is_due_to_others = report.reason == coordination::FallbackReason::kConflict ||
+                                report.reason == coordination::FallbackReason::kMissing ||
+                                report.reason == coordination::FallbackReason::kNeighbour;
+  if (!is_due_to_others || !report.blocked_by.empty()) return;
+  violations.push_back({.at = at,
+                        .check = "reasons",
+                        .text = "vehicle " + std::to_string(report.vehicle.value) +
+                                " falls back, " + coordination::to_string(report.reason) +
+                                ", and does not name because of which"});
+}
+
 void ReasonsCheck::check(Nanoseconds at, Violations& violations) {
   for (auto& [process, lines] : lines_) {
     const auto stopped = std::exchange(lines.stopped, std::nullopt);

@@ -135,7 +135,7 @@ class PlansCheck {
 
 /// A process that stops has logged the reason: one that ends with an exit code of failure, in a
 /// warning or an error of its log; a vehicle that no longer follows a command, in a line of its
-/// log.
+/// log. A report of a fallback that others cause (kConflict, kMissing, kNeighbour) names them.
 class ReasonsCheck {
  public:
   void started(const std::string& process) { lines_[process] = {}; }
@@ -143,6 +143,7 @@ class ReasonsCheck {
   /// One tick of a vehicle.
   void driven(const std::string& vehicle, bool follows, Nanoseconds at);
   void ended(const std::string& process, int exit_code, Nanoseconds at, Violations& violations);
+  static void reported(const coordination::Report& report, Nanoseconds at, Violations& violations);
   /// To be called between two iterations, so that lines of an iteration are known when its ticks
   /// are checked.
   void check(Nanoseconds at, Violations& violations);

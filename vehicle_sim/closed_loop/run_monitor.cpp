@@ -105,6 +105,7 @@ void RunMonitor::on_report(const ReportRecord& record, const coordination::Plan*
     ++result_.unreachable;
   }
   planning_.report(record, lab_->now());
+  ReasonsCheck::reported(report, lab_->now(), result_.violations);
   check_lab_control(report);
   plans_.reported(report, in_force, lab_->now(), result_.violations);
   driven_.reported(report, in_force);

@@ -96,6 +96,7 @@ export class Run {
       reason: about.reasons,
       quality: about.qualities,
       ...{ label: names, subgraph: names, coupled: sets, missing: sets, waits_for: sets },
+      blocked_by: sets,
     };
     const [x, y] = [sums(message.x, unit), sums(message.y, unit)];
     const yaw = sums(message.heading, about.unit_rad);

@@ -9,22 +9,20 @@ export function seconds(value, digits = 1) {
 }
 
 /// Why the car kept its plan, after "keeps its plan: ".
-function reason_words(report) {
-  const coupled = report.coupled.length ? ids_text(report.coupled) : "another car";
+function reason_words({ reason, blocked_by }) {
+  const by = blocked_by.length ? ids_text(blocked_by) : "";
   const words = {
-    infeasible: "no other plan is possible",
+    infeasible: `no other plan is possible${by && `, because of ${by}`}`,
     budget: "the search stopped at its budget before it found one",
-    missing: report.missing.length
-      ? `no message from ${ids_text(report.missing)}`
-      : "messages are missing",
-    conflict: `the new one meets a plan of ${coupled}`,
-    neighbour: `${coupled}, planned with it, fell back`,
+    missing: `no message from or to ${by}`,
+    conflict: `conflict with ${by || "another car"}`,
+    neighbour: `${by}, planned with it, fell back`,
     deviation: "it is too far off the plan, or not seen",
     late: "a deadline of the step had passed",
     undrivable: "the new one is beyond what it can follow",
     off_route: "it cannot get onto its route from here",
   };
-  return words[report.reason] || report.reason;
+  return words[reason] || reason;
 }
 
 /// {kind, words, short}: kind is one of kKinds, short a label for the map, empty: none.

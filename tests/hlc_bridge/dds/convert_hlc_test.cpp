@@ -79,6 +79,9 @@ TEST(OwnConversionRefuses, VehicleIdsOutside1To30) {
     report = good<ReportRecord>();
     report.report.waiting.vehicles.push_back(vehicle);
     EXPECT_TRUE(is_refused(report));
+    report = good<ReportRecord>();
+    report.report.blocked_by.push_back(vehicle);
+    EXPECT_TRUE(is_refused(report));
   }
   EXPECT_FALSE(is_refused(good<coordination::Traffic>()));
   EXPECT_TRUE(can_be_written(good<coordination::Traffic>()));

@@ -148,8 +148,8 @@ void put_message(std::ostream& out, const coordination::Waiting& value) {
   put_all(out, value.vehicles, value.since);
 }
 void put_message(std::ostream& out, const coordination::Report& value) {
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = value;
-  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = value;
+  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
 }
 void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d, e] = value;
@@ -508,7 +508,8 @@ ReportRecord sample(Random& random) {
       list(random, 5, vehicle),
       list(random, 5, vehicle),
       number(random),
-      {list(random, 5, vehicle), {step - std::min<std::uint64_t>(step, whole(random, 200))}}};
+      {list(random, 5, vehicle), {step - std::min<std::uint64_t>(step, whole(random, 200))}},
+      list(random, 5, vehicle)};
   return {report, random(), coin(random), random()};
 }
 

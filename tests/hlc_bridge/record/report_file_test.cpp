@@ -50,6 +50,9 @@ ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uin
     report.waiting = {.vehicles = {VehicleId{7}, VehicleId{static_cast<std::uint8_t>(random())}},
                       .since = StepIndex{random() % (step + 1)}};
   }
+  for (std::uint64_t i = random() % 3; i > 0; --i) {
+    report.blocked_by.push_back(VehicleId{static_cast<std::uint8_t>(random())});
+  }
   record.planning_ns = random();
   record.deadline_missed = random() % 2 == 0;
   record.late_ns = random();
@@ -76,6 +79,7 @@ void expect_equal(const ReportRecord& a, const ReportRecord& b) {
   EXPECT_EQ(a.report.missing, b.report.missing);
   EXPECT_EQ(a.report.deviation_m, b.report.deviation_m);
   EXPECT_EQ(a.report.waiting, b.report.waiting);
+  EXPECT_EQ(a.report.blocked_by, b.report.blocked_by);
   EXPECT_EQ(a.planning_ns, b.planning_ns);
   EXPECT_EQ(a.deadline_missed, b.deadline_missed);
   EXPECT_EQ(a.late_ns, b.late_ns);

@@ -32,11 +32,14 @@ result::StepRecord row() {
   report.missing = {VehicleId{3}};
   report.deviation_m = 0.001;
   report.waiting = {.vehicles = {VehicleId{3}, VehicleId{1}}, .since = StepIndex{7}};
+  report.blocked_by = {VehicleId{1}, VehicleId{4}};
   row.record.planning_ns = 1'500'000;
   row.record.deadline_missed = true;
   row.record.late_ns = 250'000;
   row.record.response_ns = 31'500'000;
   row.driven = Pose{1.5, 2.25, -0.25};
+  row.driven_speed_mps = 0.625;
+  row.t_s = 0.75;
   return row;
 }
 
@@ -46,24 +49,26 @@ TEST(StepFiles, RowHoldsEveryColumnOnce) {
   EXPECT_EQ(
       text.substr(text.find('\n') + 1),
       "3,2,fallback,conflict,1.5,2.5,-0.5,7,1.5,2.25,-0.25,0.25,40,4,1,1;3,3,0.001,budget,0.125,J2,"
-      "\"B, at most 0.6 m/s\",3;1,2\n");
+      "\"B, at most 0.6 m/s\",3;1,2,1;4,0.75,0.625\n");
   const auto commas = [](const std::string& line) {
     return std::count(line.begin(), line.end(), ',');
   };
   EXPECT_EQ(commas(text.substr(0, text.find('\n'))), commas(text.substr(text.find('\n') + 1)) - 1);
 }
 
-TEST(StepFiles, PoseThatWasNotRecordedIsEmpty) {
+TEST(StepFiles, PoseAndSpeedThatWereNotRecordedAreEmpty) {
   std::vector<result::StepRecord> rows{row()};
   rows[0].driven.reset();
+  rows[0].driven_speed_mps.reset();
   const std::string text = steps_csv(rows);
   EXPECT_NE(text.find(",7,,,,0.25,"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with(",0.75,\n")) << text;
 }
 
 TEST(StepFiles, WithoutAWaitItsColumnsAreEmpty) {
   std::vector<result::StepRecord> rows{row()};
   rows[0].record.report.waiting = {};
-  EXPECT_TRUE(steps_csv(rows).ends_with("0.6 m/s\",,\n"));
+  EXPECT_TRUE(steps_csv(rows).ends_with("0.6 m/s\",,,1;4,0.75,0.625\n"));
 }
 
 TEST(StepFiles, NothingOfTheClockIsInTheSteps) {

@@ -48,6 +48,17 @@ TEST(DrivenPose, IsUnknownOutsideAndInWideGaps) {
   EXPECT_FALSE(driven_pose_at({}, 20 * kMs));
 }
 
+TEST(DrivenSpeed, IsLinearBetweenNeighboursAndUnknownOutside) {
+  Drive drive{sample(20 * kMs, {}), sample(40 * kMs, {})};
+  drive[0].speed_mps = 0.5;
+  drive[1].speed_mps = 0.75;
+  EXPECT_EQ(driven_speed_mps_at(drive, 20 * kMs), 0.5);
+  EXPECT_EQ(driven_speed_mps_at(drive, 40 * kMs), 0.75);
+  EXPECT_NEAR(driven_speed_mps_at(drive, 25 * kMs).value(), 0.5625, 1e-12);
+  EXPECT_FALSE(driven_speed_mps_at(drive, 19 * kMs));
+  EXPECT_FALSE(driven_speed_mps_at(drive, 41 * kMs));
+}
+
 TEST(StepRecords, AreNumberedFromTheStartAndSortedByStepThenVehicle) {
   RunFacts facts;
   facts.period = 200 * kMs;
@@ -55,17 +66,22 @@ TEST(StepRecords, AreNumberedFromTheStartAndSortedByStepThenVehicle) {
   facts.first_step = 5;
   const std::vector<ReportRecord> reports{report(2, 6), report(2, 5), report(1, 5, 1.0),
                                           report(1, 4), report(1, 7), report(1, 5, 2.0)};
-  const Drives drives{{1, {sample(1000 * kMs, {7, 8, 9})}}};
+  Drives drives{{1, {sample(1000 * kMs, {7, 8, 9})}}};
+  drives[1].front().speed_mps = 0.25;
   const std::vector<StepRecord> rows = step_records(reports, drives, facts);
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0].step, 0U);
   EXPECT_EQ(rows[0].record.report.vehicle.value, 1);
   EXPECT_EQ(rows[0].record.report.planned_pose.x_m, 2.0);  // the last report of a step counts
   EXPECT_EQ(rows[0].driven, (Pose{7, 8, 9}));
+  EXPECT_EQ(rows[0].driven_speed_mps, 0.25);
+  EXPECT_EQ(rows[0].t_s, 0.0);
   EXPECT_EQ(rows[1].step, 0U);
   EXPECT_EQ(rows[1].record.report.vehicle.value, 2);
   EXPECT_FALSE(rows[1].driven);
+  EXPECT_FALSE(rows[1].driven_speed_mps);
   EXPECT_EQ(rows[2].step, 1U);
+  EXPECT_EQ(rows[2].t_s, 0.2);
 }
 
 TEST(StepRecords, AreEmptyIfNobodyStarted) {

@@ -291,7 +291,7 @@ TEST_F(RunSummaryTest, BudgetShareIsThatOfThePlansFound) {
 }
 
 /// Steps 20 ... 30 of the run, in which vehicle 1 waits for another one, then shorter again.
-TEST_F(RunSummaryTest, TheLongestWaitIsToldWithWhomItWasFor) {
+TEST_F(RunSummaryTest, TheLongestWaitNamesTheOthers) {
   EXPECT_FALSE(summary().vehicles[0].wait);
   EXPECT_EQ(summary_table(summary()).find("wait"), std::string::npos);
   for (std::uint64_t step = 20; step <= 30; ++step) {
@@ -312,11 +312,24 @@ TEST_F(RunSummaryTest, TheLongestWaitIsToldWithWhomItWasFor) {
   const std::string table = summary_table(result);
   EXPECT_THAT(
       table,
-      HasSubstr("longest wait for others                      2.2 s, vehicle 1 for 2 3, from 4.0 s "
+      HasSubstr("longest wait for others, of every vehicle    2.2 s, vehicle 1 for 2 3, from 4.0 s "
                 "on\n"));
   EXPECT_THAT(table, Not(HasSubstr("stuck at the end")));
   for (std::uint8_t id = 10; id < 25; ++id) report(1, 30).report.waiting.vehicles.push_back({id});
   EXPECT_THAT(summary_table(summary()), HasSubstr("for 2 3 10 11 12 13 14 15 ..., from 4.0 s on"));
+}
+
+TEST_F(RunSummaryTest, EveryVehicleThatWaitedHasALineTheLongestFirst) {
+  report(1, 20).report.waiting = {.vehicles = {{2}}, .since = {5 + 20}};
+  for (std::uint64_t step = 40; step <= 45; ++step) {
+    report(2, step).report.waiting = {.vehicles = {{1}}, .since = {5 + 40}};
+  }
+  EXPECT_THAT(
+      summary_table(summary()),
+      HasSubstr("longest wait for others, of every vehicle    1.2 s, vehicle 2 for 1, from 8.0 s "
+                "on\n"
+                "                                               0.2 s, vehicle 1 for 2, from 4.0 s "
+                "on\n"));
 }
 
 TEST_F(RunSummaryTest, AVehicleIsStuckByItsLastStepAlone) {

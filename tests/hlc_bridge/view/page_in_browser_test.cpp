@@ -293,7 +293,7 @@ TEST_F(PageInBrowser, AClickOnACarOfAStepShowsItsReportAndThePartner) {
     result.partner = text("report_title");
   )");
   EXPECT_EQ(result.at("title"), "Car 2 (car 2) in step 8");
-  EXPECT_THAT(result.at("state"), StartsWith("keeps its plan: the new one meets a plan of car 1"));
+  EXPECT_THAT(result.at("state"), StartsWith("keeps its plan: conflict with car 3"));
   EXPECT_THAT(result.at("waits"), HasSubstr("car 1"));
   EXPECT_THAT(result.at("coupled"), HasSubstr("car 1"));
   EXPECT_EQ(result.at("missing"), "none");

@@ -68,6 +68,8 @@ TEST(PageMessages, AReportNamesTheOtherCars) {
   EXPECT_EQ(set("waits_for", kWaitsFrom), json({1}));
   EXPECT_EQ(set("coupled", 0), json({1}));
   EXPECT_EQ(set("missing", 0), json::array());
+  EXPECT_EQ(set("blocked_by", kFallsBackIn - 1), json::array());
+  EXPECT_EQ(set("blocked_by", kFallsBackIn), json({3}));
   EXPECT_EQ(columns.at("waits_since").at(kFallsBackIn), kWaitsFrom);
   const json run = of_kind(sample_run(3, 20), "run").at(0);
   EXPECT_EQ(run.at("reasons").at(columns.at("reason").at(kFallsBackIn).get<std::size_t>()),

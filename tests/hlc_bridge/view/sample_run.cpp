@@ -32,6 +32,7 @@ ReportRecord report_of(std::uint8_t id, std::uint64_t step, const Pose& pose) {
   if (step == kFallsBackIn) {
     report.status = coordination::StepStatus::kFallback;
     report.reason = coordination::FallbackReason::kConflict;
+    report.blocked_by = {VehicleId{3}};
   }
   return record;
 }

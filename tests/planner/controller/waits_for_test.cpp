@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/controller/self_loop.hpp"
-#include "tests/planner/controller/east_bound.hpp"
+#include "tests/planner/controller/blocked_road.hpp"
 
 namespace hlc::controller::waits_for_test {
 namespace {
@@ -15,7 +15,6 @@ using coordination::StepStatus;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr std::uint64_t kNow = 101;
 constexpr std::size_t kHorizon = 8;
 
 coordination::Plan standing() {
@@ -37,17 +36,13 @@ const coordination::Plan& eastwards() {
   return kPlan;
 }
 
-ConvexPolygon wall(double x_m) {
-  return {{Point(x_m, -1.0), Point(x_m + 0.1, -1.0), Point(x_m + 0.1, 1.0), Point(x_m, 1.0)}};
-}
-
 OtherVehicle across(std::uint8_t vehicle, double x_m) {
   return {.vehicle = {vehicle},
           .areas_m = std::vector<std::vector<ConvexPolygon>>(kHorizon, {wall(x_m)})};
 }
 
 OtherVehicle preventing(std::uint8_t vehicle) {
-  return {.vehicle = {vehicle}, .areas_m = {}, .prevents_all = true};
+  return {.vehicle = {vehicle}, .is_out_of_contact = true};
 }
 
 /// Car 1 stands; alone it would drive east.
@@ -145,71 +140,7 @@ TEST_F(WaitsFor, NobodyIfTheReasonIsItsOwn) {
   }
 }
 
-/// Car 1 in a lane along y = 0, which a parked car 2 blocks until it is gone.
-class Blocked : public testing::Test {
- protected:
-  void start(double wall_x_m = 9.0) {
-    std::vector<road::Corridor::Piece> pieces;
-    for (const double y_m : {-0.12, 0.12}) {
-      pieces.push_back({{Point(-1.0, y_m), Point(wall_x_m, y_m)}, -1.0, 10.0});
-    }
-    pieces.push_back({{Point(wall_x_m, -0.12), Point(wall_x_m, 0.12)}, -1.0, 10.0});
-    start(10.0, {std::move(pieces), 0.0});
-  }
-  void start(double goal_x_m, road::Corridor corridor) {
-    one_ = std::make_unique<Controller>(
-        ControllerOptions{.vehicle = {1}}, subgraph(),
-        road::ReferencePath({Point(-0.5, 0.0), Point(goal_x_m, 0.0)}, false), std::move(corridor));
-    static_cast<void>(one_->stand_by(at(kNow - 1, {seen(1, 0.0, 0.0)})));
-  }
-
-  /// @param traffic_of_2  received from car 2, which is parked ahead
-  coordination::Report step(bool receives = true) {
-    const Observation observation = at(k_, {following(*one_, k_), seen(2, parked_x_m_, 0.0)});
-    static_cast<void>(one_->observe(observation));
-    one_->couple(receives ? std::vector{parked(k_)} : std::vector<coordination::Traffic>{});
-    static_cast<void>(one_->plan({}));
-    return finish(one_->commit(std::vector{stays(k_)}, {}));
-  }
-
-  coordination::Report step_alone() {
-    static_cast<void>(one_->observe(at(k_, {following(*one_, k_)})));
-    one_->couple({});
-    static_cast<void>(one_->plan({}));
-    return finish(one_->commit({}, {}));
-  }
-
-  coordination::Report step_too_late() {
-    static_cast<void>(one_->observe(at(k_, {following(*one_, k_), seen(2, parked_x_m_, 0.0)})));
-    return finish(one_->fall_back(FallbackReason::kLate));
-  }
-
-  coordination::Report finish(coordination::Report report) {
-    ++k_;
-    one_->note_waiting(report);
-    return report;
-  }
-
-  coordination::Traffic parked(std::uint64_t k) const {
-    const auto two = controller(2);
-    static_cast<void>(two->stand_by(at(k - 1, {seen(2, parked_x_m_, 0.0)})));
-    return two->observe(at(k, {seen(2, parked_x_m_, 0.0)}));
-  }
-
-  coordination::Prediction stays(std::uint64_t k) const {
-    return {
-        .vehicle = {2},
-        .step = {k},
-        .is_new = false,
-        .areas = {.first = {k + 1}, .areas_m = {}, .final_area_m = parked(k).running.final_area_m}};
-  }
-
-  std::unique_ptr<Controller> one_;
-  std::uint64_t k_{kNow};
-  double parked_x_m_{0.32};  ///< of car 2
-};
-
-TEST_F(Blocked, ItWaitsSinceTheFirstStepUntilItsRoadIsFree) {
+TEST_F(BlockedRoad, ItWaitsSinceTheFirstStepUntilItsRoadIsFree) {
   start();
   for (int i = 0; i < 4; ++i) {
     const coordination::Report report = step();
@@ -221,7 +152,7 @@ TEST_F(Blocked, ItWaitsSinceTheFirstStepUntilItsRoadIsFree) {
   EXPECT_EQ(free.waiting, coordination::Waiting{});
 }
 
-TEST_F(Blocked, AWaitAfterABreakIsANewOne) {
+TEST_F(BlockedRoad, AWaitAfterABreakIsANewOne) {
   start();
   EXPECT_EQ(step().waiting.since, StepIndex{kNow});
   one_->set_minimal_risk_stop(true);
@@ -230,7 +161,7 @@ TEST_F(Blocked, AWaitAfterABreakIsANewOne) {
   EXPECT_EQ(step().waiting.since, StepIndex{kNow + 2});
 }
 
-TEST_F(Blocked, ALateStepDoesNotInterruptTheWait) {
+TEST_F(BlockedRoad, ALateStepDoesNotInterruptTheWait) {
   start();
   EXPECT_THAT(step_too_late().waiting.vehicles, IsEmpty()) << "it was not known to wait before";
   EXPECT_EQ(step().waiting.since, StepIndex{kNow + 1});
@@ -240,24 +171,20 @@ TEST_F(Blocked, ALateStepDoesNotInterruptTheWait) {
 }
 
 // Nothing is known of its new plan: it may be anywhere within its reach.
-TEST_F(Blocked, ItWaitsForOneWhosePredictionDidNotArrive) {
+TEST_F(BlockedRoad, ItWaitsForOneWhosePredictionDidNotArrive) {
   start(10.0, {});
   parked_x_m_ = -0.5;  // behind
-  static_cast<void>(one_->observe(at(k_, {following(*one_, k_), seen(2, parked_x_m_, 0.0)})));
-  one_->couple(std::vector{parked(k_)});
-  static_cast<void>(one_->plan({}));
+  begin_step();
   const coordination::Report report = finish(one_->commit({}, {}));
   ASSERT_EQ(report.reason, FallbackReason::kMissing);
   EXPECT_THAT(report.waiting.vehicles, ElementsAre(VehicleId{2}));
 }
 
 // Car 2 plans after car 1, and into its way.
-TEST_F(Blocked, ItWaitsForOneWhoseNewPlanItMeets) {
+TEST_F(BlockedRoad, ItWaitsForOneWhoseNewPlanItMeets) {
   start(10.0, {});
   parked_x_m_ = -0.5;  // behind
-  static_cast<void>(one_->observe(at(k_, {following(*one_, k_), seen(2, parked_x_m_, 0.0)})));
-  one_->couple(std::vector{parked(k_)});
-  static_cast<void>(one_->plan({}));
+  begin_step();
   coordination::Prediction crossing = stays(k_);
   crossing.is_new = true;
   crossing.areas.final_area_m = wall(0.6);
@@ -266,14 +193,14 @@ TEST_F(Blocked, ItWaitsForOneWhoseNewPlanItMeets) {
   EXPECT_THAT(report.waiting.vehicles, ElementsAre(VehicleId{2}));
 }
 
-TEST_F(Blocked, ItWaitsForOneThatIsMissing) {
+TEST_F(BlockedRoad, ItWaitsForOneThatIsMissing) {
   start();
   const coordination::Report report = step(false);
   EXPECT_THAT(report.missing, ElementsAre(VehicleId{2}));
   EXPECT_THAT(report.waiting.vehicles, ElementsAre(VehicleId{2}));
 }
 
-TEST_F(Blocked, ItWaitsForOneThatDoesNotReceiveIt) {
+TEST_F(BlockedRoad, ItWaitsForOneThatDoesNotReceiveIt) {
   start();
   static_cast<void>(one_->observe(at(k_, {following(*one_, k_), seen(2, -0.5, 0.0)})));
   const auto two = controller(2);
@@ -289,7 +216,7 @@ TEST_F(Blocked, ItWaitsForOneThatDoesNotReceiveIt) {
 }
 
 // Nobody sees either car: the step's reason is the other one, whose place is unknown.
-TEST_F(Blocked, WhileItIsNotSeenItDoesNotWait) {
+TEST_F(BlockedRoad, WhileItIsNotSeenItDoesNotWait) {
   start();
   static_cast<void>(step());
   for (int i = 0; i < 4; ++i) {
@@ -304,7 +231,7 @@ TEST_F(Blocked, WhileItIsNotSeenItDoesNotWait) {
   }
 }
 
-TEST_F(Blocked, AtItsGoalItDoesNotWait) {
+TEST_F(BlockedRoad, AtItsGoalItDoesNotWait) {
   start(0.8, {});
   for (int i = 0; i < 20; ++i) EXPECT_THAT(step_alone().waiting.vehicles, IsEmpty());
   const Pose goal = one_->plan_in_force().pose_at({k_});
@@ -317,13 +244,13 @@ TEST_F(Blocked, AtItsGoalItDoesNotWait) {
   EXPECT_THAT(report.waiting.vehicles, IsEmpty());
 }
 
-TEST_F(Blocked, BeforeAWallItDoesNotWait) {
+TEST_F(BlockedRoad, BeforeAWallItDoesNotWait) {
   start(0.15);
   EXPECT_THAT(step().waiting.vehicles, IsEmpty());
   EXPECT_THAT(step_alone().waiting.vehicles, IsEmpty());
 }
 
-TEST_F(Blocked, ExaminingItChangesNoPlan) {
+TEST_F(BlockedRoad, ExaminingItChangesNoPlan) {
   start();
   Controller not_examined = *one_;
   for (int i = 0; i < 10; ++i) {
@@ -356,9 +283,35 @@ TEST(AgreedWaiting, ItWaitsForWhoVotedAgainst) {
   const std::vector<coordination::Outcome> votes{
       {.vehicle = {2}, .step = {kNow}, .wants_fallback = true}};
   coordination::Report report = one->commit({}, votes);
-  one->note_waiting(report);
+  one->note_causes(report);
   ASSERT_EQ(report.reason, FallbackReason::kNeighbour);
   EXPECT_THAT(report.waiting.vehicles, ElementsAre(VehicleId{2}));
+}
+
+// Car 3 is coupled with car 2 alone, but belongs to the same component.
+TEST(AgreedWaiting, ItWaitsForAVoterThatIsNotCoupled) {
+  const std::vector<coordination::MeasuredVehicle> states{seen(1, 0.0, 0.0), seen(2, 1.2, 0.4),
+                                                          seen(3, 2.4, 0.8)};
+  std::vector<std::unique_ptr<Controller>> cars;
+  std::vector<coordination::Traffic> traffic;
+  for (std::uint8_t id = 1; id <= 3; ++id) {
+    cars.push_back(controller(id, 0.4 * (id - 1), kAgreed));
+    static_cast<void>(cars.back()->stand_by(at(kNow - 1, states)));
+    traffic.push_back(cars.back()->observe(at(kNow, states)));
+  }
+  Controller& one = *cars.front();
+  one.couple(std::vector(traffic.begin() + 1, traffic.end()));
+  ASSERT_THAT(one.coupled(), ElementsAre(VehicleId{2}));
+  ASSERT_THAT(one.component(), ElementsAre(VehicleId{1}, VehicleId{2}, VehicleId{3}));
+  static_cast<void>(one.plan({}));
+  const std::vector<coordination::Outcome> votes{
+      {.vehicle = {2}, .step = {kNow}, .wants_fallback = false},
+      {.vehicle = {3}, .step = {kNow}, .wants_fallback = true}};
+  coordination::Report report = one.commit({}, votes);
+  one.note_causes(report);
+  ASSERT_EQ(report.reason, FallbackReason::kNeighbour);
+  EXPECT_THAT(report.waiting.vehicles, ElementsAre(VehicleId{3}));
+  EXPECT_THAT(report.blocked_by, ElementsAre(VehicleId{3}));
 }
 
 }  // namespace

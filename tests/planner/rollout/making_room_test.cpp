@@ -31,7 +31,7 @@ std::size_t num_waiting(scenario::Scenario scenario, const CoordinationRule& rul
     EXPECT_TRUE(test::plans_in_force_are_free(rollout)) << "step " << i;
   }
   for (std::size_t i = 0; i < reports.size(); ++i) {
-    rollout.controllers()[i]->note_waiting(reports[i]);
+    rollout.controllers()[i]->note_causes(reports[i]);
   }
   return static_cast<std::size_t>(std::ranges::count_if(
       reports, [](const auto& report) { return !report.waiting.vehicles.empty(); }));

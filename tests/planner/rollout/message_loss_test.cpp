@@ -2,6 +2,7 @@
 // pair.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -214,6 +215,43 @@ INSTANTIATE_TEST_SUITE_P(Rounds, RandomLoss,
                          [](const auto& tested) {
                            return tested.param == controller::Rounds::kTwo ? "Two" : "Sequential";
                          });
+
+class NamesOfOthers : public testing::TestWithParam<LossCase> {};
+
+// On open ground nothing but others makes a vehicle keep its plan.
+TEST_P(NamesOfOthers, AreInEveryReportOfAFallback) {
+  using enum coordination::FallbackReason;
+  std::map<coordination::FallbackReason, int> steps;
+  for (unsigned seed = 0; seed < test::num_costly_seeds(20); ++seed) {
+    std::mt19937 random(seed);
+    std::bernoulli_distribution is_lost(0.15);
+    Rollout rollout = three_cars_that_meet(
+        ThreeCars{.strategies = GetParam().strategies, .rounds = GetParam().rounds});
+    rollout.lose([&](const controller::Delivery&) { return is_lost(random); });
+    for (int i = 0; i < 40; ++i) {
+      std::vector<coordination::Report> reports = rollout.step();
+      for (std::size_t j = 0; j < reports.size(); ++j) {
+        coordination::Report& report = reports[j];
+        rollout.controllers()[j]->note_causes(report);
+        ++steps[report.reason];
+        ASSERT_EQ(report.blocked_by.empty(), report.reason == kNone)
+            << "seed " << seed << ", step " << i << ", " << to_string(report.reason);
+        ASSERT_EQ(std::ranges::count(report.blocked_by, report.vehicle), 0);
+        ASSERT_TRUE(std::ranges::is_sorted(report.blocked_by));
+      }
+    }
+  }
+  EXPECT_GT(steps[kInfeasible], 0);
+  EXPECT_GT(steps[kMissing], 0);
+  EXPECT_EQ(steps[kNeighbour] > 0, GetParam().strategies.coordination.commit.needs_votes);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rules, NamesOfOthers,
+    testing::Values(LossCase{"Strict", kStrict, 0}, LossCase{"Cooperative", kCooperative, 0},
+                    LossCase{"TwoRounds", kCooperative, 0, controller::Rounds::kTwo},
+                    LossCase{"Agreed", kAgreed, 0}),
+    [](const auto& tested) { return tested.param.name; });
 
 // With two rounds a controller that misses traffic computes other plans for the others than these
 // do. All outcomes arrive, so that nothing but their digests shows it.
