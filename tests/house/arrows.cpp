@@ -60,6 +60,8 @@ const Arrows kArrows{
     {"hlc_bridge/result", {"hlc_bridge/messages", "planner"}},
     {"hlc_bridge/record", {"hlc_bridge/result", "hlc_bridge/messages", "planner"}},
     {"hlc_bridge/view", {"hlc_bridge/result", "hlc_bridge/messages", "planner"}},
+    {"hlc_bridge/live",
+     {"hlc_bridge/view", "hlc_bridge/messages", "hlc_bridge/dds", "hlc_bridge/time", "planner"}},
     {"hlc_bridge/process",
      {"hlc_bridge/hlc", "hlc_bridge/middleware", "hlc_bridge/lab_control", "hlc_bridge/machine",
       "hlc_bridge/messages", "hlc_bridge/dds", "hlc_bridge/time", "hlc_bridge/view",

@@ -1,6 +1,5 @@
 // The run as the page knows it, and questions about it at any time. Data arrives as messages
-// through Run.take(): those embedded in the page of a finished run, or later those of a live run,
-// in smaller portions. hlc_bridge/view/page_messages.hpp specifies the messages.
+// (hlc_bridge/view/page_messages.hpp) through Run.take().
 
 const kFormat = 1;
 
