@@ -296,8 +296,8 @@ if $view; then # whatever becomes of it, the run goes on
     "${choices[@]}" </dev/null >"$view_log" 2>&1 &
   view_process=$!
   deadline=$((SECONDS + startup_timeout_s))
-  while ! grep -qs '^view: ' "$view_log" && any_runs "$view_process" && ((SECONDS < deadline)); do sleep 0.05; done
-  grep -s '^view: ' "$view_log" || echo "run_lab.sh: no view of this run: $(tail -n 1 "$view_log" 2>/dev/null)" >&2
+  while ! grep -qs '^view: http' "$view_log" && any_runs "$view_process" && ((SECONDS < deadline)); do sleep 0.05; done
+  grep -s '^view: http' "$view_log" || echo "run_lab.sh: no view of this run: $(tail -n 1 "$view_log" 2>/dev/null)" >&2
 fi
 groups=("${ids[@]}")
 [[ $share == none ]] || groups=("$(IFS=,; echo "${ids[*]}")")

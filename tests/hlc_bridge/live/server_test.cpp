@@ -3,17 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <list>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
-#include <thread>
-#include <utility>
-#include <vector>
 
-#include "tests/hlc_bridge/live/http_client.hpp"
+#include "tests/hlc_bridge/live/running_server.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/http_client.hpp"
 
 namespace hlc::live {
 namespace {
@@ -25,49 +21,6 @@ using testing::StartsWith;
 using namespace std::chrono_literals;
 
 constexpr const char* kEnd = "\ndata: [\"end\"]\n\n";
-
-/// A server on a thread of its own; ends with this object.
-class RunningServer {
- public:
-  explicit RunningServer(std::chrono::milliseconds patience = 20s)
-      : server_({.port = 0, .patience = patience}, history_),
-        thread_([this] { server_.run(2ms, [this] { tick(); }); }) {}
-  ~RunningServer() {
-    end();
-    thread_.join();
-  }
-  RunningServer(const RunningServer&) = delete;
-  RunningServer& operator=(const RunningServer&) = delete;
-
-  void append(const std::string& messages) {
-    const std::lock_guard lock{mutex_};
-    next_.push_back(messages);
-  }
-  void end() { ends_ = true; }
-
-  [[nodiscard]] std::uint16_t port() const { return server_.port(); }
-  [[nodiscard]] std::size_t num_clients() const { return num_clients_; }
-  [[nodiscard]] std::size_t num_events() const { return num_events_; }
-
- private:
-  void tick() {
-    num_clients_ = server_.num_clients();
-    if (history_.has_ended()) return;
-    const std::lock_guard lock{mutex_};
-    for (const std::string& messages : std::exchange(next_, {})) history_.append(messages);
-    num_events_ = history_.size();
-    if (ends_) history_.end();
-  }
-
-  History history_{"1"};
-  std::mutex mutex_;
-  std::vector<std::string> next_;  ///< guarded by mutex_
-  std::atomic<std::size_t> num_clients_{};
-  std::atomic<std::size_t> num_events_{};
-  std::atomic<bool> ends_{};
-  Server server_;
-  std::thread thread_;
-};
 
 std::string answer_of(const RunningServer& server, const std::string& request) {
   HttpClient client(server.port());

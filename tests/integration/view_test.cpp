@@ -1,0 +1,151 @@
+// The program view beside real runs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <regex>
+#include <set>
+
+#include "tests/integration/lab_processes.hpp"
+#include "tests/support/folders.hpp"
+#include "tests/support/http_client.hpp"
+
+namespace hlc::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// The program, once it has printed its address.
+class View {
+ public:
+  View(const LabProcesses& lab, const std::string& simulated_time)
+      : log_(lab.folder() / "logs" / "view.txt"),
+        process_({test::build_folder() + "/bin/view",
+                  "--scenario=" + test::source_folder() +
+                      "/launch_scripts/scenarios/paper_three_cars.yaml",
+                  "--dds_domain=" + std::to_string(lab.lab_domain()), "--transport=loopback",
+                  "--simulated_time=" + simulated_time, "--port=0"},
+                 log_) {
+    EXPECT_TRUE(eventually(60s, [this] { return port() != 0; })) << read_text(log_);
+  }
+
+  [[nodiscard]] std::uint16_t port() const {
+    std::smatch match;
+    const std::string text = read_text(log_);
+    const std::regex address("view: http://127\\.0\\.0\\.1:([0-9]+)/\n");
+    if (!std::regex_search(text, match, address)) return 0;
+    return static_cast<std::uint16_t>(std::stoi(match[1]));
+  }
+  ChildProcess& process() { return process_; }
+
+ private:
+  std::filesystem::path log_;
+  ChildProcess process_;
+};
+
+/// All messages that the server sends until the end.
+std::vector<nlohmann::json> messages_of(HttpClient& client) {
+  std::vector<nlohmann::json> messages;
+  static_cast<void>(client.read_until("\r\n\r\n"));
+  for (std::string event = client.read_until("\n\n"); !event.empty();
+       event = client.read_until("\n\n")) {
+    const std::size_t data = event.find("data: ");
+    if (data == std::string::npos) continue;
+    for (const auto& message : nlohmann::json::parse(event.substr(data + 6))) {
+      messages.push_back(message);
+      if (message.at("kind") == "end") return messages;
+    }
+  }
+  return messages;
+}
+
+/// The steps of every car.
+std::map<int, std::vector<int>> steps_in(const std::vector<nlohmann::json>& messages) {
+  std::map<int, std::vector<int>> steps;
+  for (const nlohmann::json& message : messages) {
+    if (message.at("kind") != "steps") continue;
+    int k = 0;
+    for (const nlohmann::json& change : message.at("k")) {
+      k += change.get<int>();
+      steps[message.at("vehicle").get<int>()].push_back(k);
+    }
+  }
+  return steps;
+}
+
+std::set<int> cars_with_states(const std::vector<nlohmann::json>& messages) {
+  std::set<int> cars;
+  for (const nlohmann::json& message : messages) {
+    if (message.at("kind") == "drive") cars.insert(message.at("vehicle").get<int>());
+  }
+  return cars;
+}
+
+std::vector<int> numbers_up_to(int end) {
+  std::vector<int> numbers(static_cast<std::size_t>(end));
+  for (int i = 0; i < end; ++i) numbers[static_cast<std::size_t>(i)] = i;
+  return numbers;
+}
+
+/// `trace_sha256` of the finished run.
+std::string trace_of(LabProcesses& lab) {
+  EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
+  EXPECT_EQ(lab.summarize(), 0) << lab.log("summarize");
+  const auto summary =
+      nlohmann::json::parse(read_text(lab.folder() / "summary.json"), nullptr, false);
+  return summary.is_object() ? summary.value("trace_sha256", "") : "";
+}
+
+TEST(View, ShowsAllStepsOfAllCarsAndLeavesTheRunAsItIs) {
+  constexpr int kSteps = 40;
+  LabProcesses alone({.steps = kSteps});
+  alone.start_all();
+  const std::string trace = trace_of(alone);
+  LabProcesses watched({.steps = kSteps});
+  View view(watched, "true");
+  HttpClient client(view.port());
+  client.get("/events");
+  watched.start_all();
+  const std::vector<nlohmann::json> messages = messages_of(client);
+  EXPECT_EQ(trace_of(watched), trace);
+  EXPECT_NE(trace, "");
+  const std::map<int, std::vector<int>> steps = steps_in(messages);
+  ASSERT_EQ(steps.size(), 3U);
+  for (const auto& [car, numbers] : steps) EXPECT_EQ(numbers, numbers_up_to(kSteps)) << car;
+  EXPECT_EQ(cars_with_states(messages), std::set({1, 2, 3}));
+  ASSERT_FALSE(messages.empty());
+  EXPECT_EQ(messages.back().value("reason", ""), "The run has ended.");
+  EXPECT_EQ(view.process().wait_for(30s), 0);
+}
+
+TEST(View, StartedInTheMiddleOfARunShowsItFromItsBegin) {
+  constexpr int kSteps = 25;
+  LabProcesses lab({.steps = kSteps, .simulated_time = false});
+  lab.start_all();
+  ASSERT_TRUE(eventually(60s, [&] { return reports_so_far(lab.folder()).size() > 9; }));
+  View view(lab, "false");
+  HttpClient client(view.port());
+  client.get("/events");
+  const std::map<int, std::vector<int>> steps = steps_in(messages_of(client));
+  EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
+  ASSERT_EQ(steps.size(), 3U);
+  for (const auto& [car, numbers] : steps) EXPECT_EQ(numbers, numbers_up_to(kSteps)) << car;
+}
+
+TEST(View, ThatIsKilledOrStoppedDoesNotHoldUpTheRun) {
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    LabProcesses lab({.steps = 40, .simulated_time = false});
+    View view(lab, "false");
+    lab.start_all();
+    ASSERT_TRUE(eventually(60s, [&] { return reports_so_far(lab.folder()).size() > 9; }));
+    view.process().send(signal);
+    EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
+    EXPECT_EQ(lab["lab_control"].wait_for(0ms), 0) << lab.log("lab_control");
+    for (const ReportRecord& record : lab.reports()) EXPECT_FALSE(record.deadline_missed);
+  }
+}
+
+}  // namespace
+}  // namespace hlc::test
