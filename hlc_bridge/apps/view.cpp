@@ -20,9 +20,9 @@
 
 namespace {
 
-constexpr std::chrono::milliseconds kTick{34};  // at most 30 portions a second
-/// After the run's end: for the last messages on their way.
-constexpr int kLastTicks = 15;
+/// The page is a step of 200 ms behind: more portions would not show more.
+constexpr std::chrono::milliseconds kTick{100};
+constexpr int kLastTicks = 5;  ///< after the run's end, for the last messages on their way
 constexpr std::size_t kMostHistoryBytes = 120'000'000;
 
 struct Flags {
@@ -119,9 +119,9 @@ class View {
  public:
   View(const Flags& flags, hlc::view::FinishedRun run)
       : history_(std::to_string(hlc::time::real_time_now())),
+        server_(flags.server, history_),
         listener_(listener_options(flags, run.facts.vehicle_ids)),
-        messages_(std::move(run)),
-        server_(flags.server, history_) {
+        messages_(std::move(run)) {
     if (server_.is_open_to_others()) {
       spdlog::warn("--listen = {}: the run is shown to whoever reaches this address",
                    flags.server.address);
@@ -158,9 +158,9 @@ class View {
   }
 
   hlc::live::History history_;
+  hlc::live::Server server_;
   hlc::live::LabListener listener_;
   hlc::view::LiveMessages messages_;
-  hlc::live::Server server_;
   int ticks_after_run_{};
   std::atomic<bool> stop_{};
 };

@@ -1,13 +1,13 @@
 #include "hlc_bridge/live/connection.hpp"
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
-
-#include "hlc_bridge/live/server.hpp"
 
 namespace hlc::live {
 namespace {
 
+constexpr std::uint32_t kMostHeaderBytes = 8192;
 constexpr std::size_t kMostBytesAtOnce = 256UL * 1024UL;
 constexpr std::string_view kStillThere = ":\n\n";  // a comment, which browsers ignore
 

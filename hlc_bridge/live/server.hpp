@@ -22,7 +22,6 @@ struct ServerOptions {
 inline constexpr std::uint16_t kFirstPort = 8400;
 inline constexpr std::uint16_t kNumPorts = 50;
 inline constexpr std::size_t kMostClients = 200;  ///< further ones are refused
-inline constexpr std::size_t kMostHeaderBytes = 8192;
 
 /// The page of a run under way for browsers (answer.hpp), over HTTP, on one thread.
 ///

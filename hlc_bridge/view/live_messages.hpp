@@ -39,7 +39,7 @@ class LiveMessages {
   /// With the reports that have no next one, and `end`.
   [[nodiscard]] std::string last_portion(const std::string& reason);
 
-  static constexpr int kPatience = 30;
+  static constexpr int kPatience = 10;
 
  private:
   struct Vehicle {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -11,20 +12,22 @@
 #include "tests/integration/lab_processes.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/http_client.hpp"
+#include "tests/support/program.hpp"
 
 namespace hlc::test {
 namespace {
 
 using namespace std::chrono_literals;
 
+const std::string kScenario =
+    test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml";
+
 /// The program, once it has printed its address.
 class View {
  public:
   View(const LabProcesses& lab, const std::string& simulated_time)
       : log_(lab.folder() / "logs" / "view.txt"),
-        process_({test::build_folder() + "/bin/view",
-                  "--scenario=" + test::source_folder() +
-                      "/launch_scripts/scenarios/paper_three_cars.yaml",
+        process_({test::build_folder() + "/bin/view", "--scenario=" + kScenario,
                   "--dds_domain=" + std::to_string(lab.lab_domain()), "--transport=loopback",
                   "--simulated_time=" + simulated_time, "--port=0"},
                  log_) {
@@ -146,6 +149,28 @@ TEST(View, ThatIsKilledOrStoppedDoesNotHoldUpTheRun) {
     view.process().send(signal);
     EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
     EXPECT_EQ(lab["lab_control"].wait_for(0ms), 0) << lab.log("lab_control");
+  }
+}
+
+TEST(View, BadFlagsAreRefusedInOneLineWithCode2) {
+  const DomainReservation domain;
+  const std::string view =
+      "view --transport=loopback --dds_domain=" + std::to_string(domain.first()) +
+      " --scenario=" + kScenario + " ";
+  LabProcesses lab({});
+  View first(lab, "true");
+  const std::string port = std::to_string(first.port());
+  for (const auto& [flags, line] : std::map<std::string, std::string>{
+           {"--port=" + port, "--port = " + port + " is taken, must be free"},
+           {"--port=70000", "--port: 70000, must be in 0 ... 65535"},
+           {"--listen=here", "--listen = here, must be an IP address of this machine"},
+           {"--vehicle_ids=1,1", "--vehicle_ids = 1 twice, must be unique"},
+           {"--controller_domain=" + std::to_string(domain.first()), "must be different from"},
+           {"--nonsense", "--nonsense, must be a flag that --help lists"}}) {
+    const Outcome outcome = run_program(view + flags);
+    EXPECT_EQ(outcome.exit_code, 2) << flags;
+    EXPECT_THAT(outcome.output, testing::HasSubstr(line)) << flags;
+    EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
   }
 }
 
