@@ -37,6 +37,8 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --dump-problems DIR     write each planning problem to a JSON file in this new or empty folder, for plan_problem; in
                           real time this may delay steps; requires --policy none if the scenario has a policy
   --page BOOL             true (default): the run folder gets run.html, the whole run to be watched in a browser
+  --view                  prints the address of a page on this machine that shows the run while it drives, best in real
+                          time; the run is the same with it
   --out DIR               run folder (default: a new one in runs/)
   --preset NAME           build preset (default release)
   --startup_timeout_s N   startup timeout (default 20)
@@ -53,13 +55,14 @@ fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
 simulated_time=true noise_seed="" gains_scale="" stamps="" on_death=stop transport=loopback dds_domain="" out="" preset=release
-bin="" build=true share="" page=true
+bin="" build=true share="" page=true view=false
 startup_timeout_s=20
 while (($#)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
     --version) exec "$root/launch_scripts/version.sh" run_lab.sh ;;
     --no_build) build=false; shift; continue ;;
+    --view) view=true; shift; continue ;;
     --*=*) name=${1%%=*} value=${1#*=} ;;
     --*) name=$1 value=${2-}
       (($# >= 2)) || fail "$1 needs a value"
@@ -239,7 +242,7 @@ TEXT
 # Runs a command that gets SIGTERM when this script ends, even by SIGKILL.
 with_me() { exec setpriv --pdeathsig TERM -- "$@"; }
 
-children=() lab_control=""
+children=() lab_control="" view_process=""
 any_runs() {
   local pid
   for pid in "$@"; do kill -0 "$pid" 2>/dev/null && return 0; done
@@ -258,6 +261,19 @@ end_children() {
   local pid
   for pid in "${children[@]}"; do wait "$pid" 2>/dev/null; done
 }
+# Shows what it has to its browsers, and that the run has ended.
+# shellcheck disable=SC2317 # called by the traps
+end_view() {
+  [[ -n $view_process ]] || return 0
+  local deadline=$((SECONDS + 4))
+  kill -TERM "$view_process" 2>/dev/null
+  while any_runs "$view_process" && ((SECONDS < deadline)); do sleep 0.05; done
+  kill -KILL "$view_process" 2>/dev/null
+  wait "$view_process" 2>/dev/null
+  view_process=""
+}
+# shellcheck disable=SC2317 # called by the traps
+end_all() { end_children; end_view; }
 # The table of the steps that were recorded.
 summarize() {
   local page_flag=()
@@ -266,14 +282,23 @@ summarize() {
 }
 # shellcheck disable=SC2317 # called by the trap
 end_early() {
-  end_children
+  end_all
   [[ ! -s $out/reports.csv ]] || summarize
   exit 130
 }
 trap end_early INT TERM HUP
-trap end_children EXIT # also when this script fails
+trap end_all EXIT # also when this script fails
 
 flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" --out "$out")
+if $view; then # whatever becomes of it, the run goes on
+  view_log=$out/logs/view.txt
+  with_me "$bin/view" --dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" \
+    "${choices[@]}" </dev/null >"$view_log" 2>&1 &
+  view_process=$!
+  deadline=$((SECONDS + startup_timeout_s))
+  while ! grep -qs '^view: http' "$view_log" && any_runs "$view_process" && ((SECONDS < deadline)); do sleep 0.05; done
+  grep -s '^view: http' "$view_log" || echo "run_lab.sh: no view of this run: $(tail -n 1 "$view_log" 2>/dev/null)" >&2
+fi
 groups=("${ids[@]}")
 [[ $share == none ]] || groups=("$(IFS=,; echo "${ids[*]}")")
 for group in "${groups[@]}"; do

@@ -18,7 +18,8 @@
 ///   the unit that `units` has for it. `names` and `sets` are tables of texts and of lists of
 ///   vehicles, into which columns point. `maneuver` is -1 if it is not known;
 /// * `drive`: states of one vehicle at equal times, without a gap;
-/// * `log`: lines.
+/// * `log`: lines;
+/// * `end`: in a run under way only, see live_messages.hpp.
 ///
 /// Lengths are whole numbers of `unit_m`, angles of `unit_rad`, speeds of 1 mm/s; times count from
 /// t(0) of the run, steps from 0. Columns of positions, angles, speeds and steps, and lines (x and

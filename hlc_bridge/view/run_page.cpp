@@ -61,4 +61,11 @@ std::string run_page(const FinishedRun& run) {
   return page;
 }
 
+std::string live_page() {
+  std::string page = page_files().at("run.html");
+  replace(page, "default-src 'none';", "default-src 'none'; connect-src 'self';");
+  replace(page, R"(src="main.js")", R"(src="live.js")");
+  return page;
+}
+
 }  // namespace hlc::view

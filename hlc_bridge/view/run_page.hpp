@@ -14,4 +14,8 @@ namespace hlc::view {
 /// `<` is escaped, so that no name or message can end it.
 [[nodiscard]] std::string run_page(const FinishedRun& run);
 
+/// The page of a run under way: it loads its files from the server that it comes from, and connects
+/// to no other.
+[[nodiscard]] std::string live_page();
+
 }  // namespace hlc::view

@@ -47,8 +47,11 @@ const std::vector<Outside> kOutside{
      "XML is read and written in planner/road, drawings in planner/plot"},
     {"^spdlog/.*", "^(hlc_bridge/(process|apps)|vehicle_sim/apps)/.*", "only processes log"},
     {"^CLI/.*", "^planner/apps/cli.hpp", "CLI11 has one entry, planner/apps/cli.hpp"},
+    {"^boost/(asio|beast)[/.].*", "^hlc_bridge/live/boost_beast.hpp",
+     "Boost.Asio and Boost.Beast have one entry, hlc_bridge/live/boost_beast.hpp"},
     {"^(thread|mutex|condition_variable|future|chrono|iostream|ctime)$",
-     "^(hlc_bridge/(time|dds|process|record|doctor|apps)/.*|vehicle_sim/apps/.*|planner/apps/.*)",
+     "^(hlc_bridge/(time|dds|process|record|doctor|live|apps)/.*|vehicle_sim/apps/.*|planner/apps/"
+     ".*)",
      "planner, machines, results and the simulated vehicle know no clock, thread or console"},
 };
 
@@ -166,6 +169,7 @@ TEST(House, AForeignHeaderInTheWrongPlaceIsNoticed) {
                         "planner/maneuver_design/solver/attempt.hpp"));
   EXPECT_TRUE(violation("planner/maneuver_design/solver/attempt.cpp",
                         "planner/maneuver_design/pareto_front.hpp"));
+  EXPECT_TRUE(violation("hlc_bridge/live/server.cpp", "boost/asio/io_context.hpp"));
   EXPECT_TRUE(violation("planner/apps/rollout.cpp", "CLI/CLI.hpp"));
   EXPECT_FALSE(
       violation("hlc_bridge/dds/fast_dds.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));

@@ -72,6 +72,33 @@ TEST_F(Scripts, RunLabPrintsTheTableAndLeavesNobodyBehind) {
       << "a process of the run is left";
 }
 
+TEST_F(Scripts, RunLabWithAViewPrintsItsAddressAndLeavesNobodyBehind) {
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run = run_lab({"--view", "--steps", "15", "--out", out.string()});
+  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  EXPECT_EQ(output().find("view: http://127.0.0.1:"), 0U) << output();
+  EXPECT_NE(output().find("collisions"), std::string::npos) << output();
+  EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
+      << "a process of the run is left";
+}
+
+TEST_F(Scripts, RunLabDrivesEvenIfTheViewFails) {
+  const std::filesystem::path bin = folder_ / "bin";
+  std::filesystem::create_directory(bin);
+  for (const auto& program : std::filesystem::directory_iterator(kBin)) {
+    if (program.path().filename() == "view") continue;
+    std::filesystem::create_symlink(program.path(), bin / program.path().filename());
+  }
+  std::ofstream(bin / "view") << "#!/bin/sh\necho 'view: fails' >&2\nexit 2\n";
+  std::filesystem::permissions(bin / "view", std::filesystem::perms::owner_all);
+  ChildProcess run = ChildProcess({kScripts + "run_lab.sh", "--bin", bin.string(), "--view",
+                                   "--steps", "15", "--out", (folder_ / "run").string()},
+                                  folder_ / "output");
+  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  EXPECT_NE(output().find("run_lab.sh: no view of this run: view: fails"), std::string::npos)
+      << output();
+}
+
 // Cars 1, 2 and 3 stand in each other's way forever.
 // Where nobody makes room, three of six cars get stuck.
 TEST_F(Scripts, RunLabTellsThatCarsAreStuckAtTheEnd) {

@@ -18,15 +18,19 @@ class Page {
     this.map = new MapView(by_id("map"));
     this.map.set_run(run);
     this.time_line = new TimeLine(by_id("time_line"), this.map.colours);
-    this.time_line.set_run(run);
     this.player = new Player(run, () => this.show());
     const select = (id) => this.select(id);
     this.list = new CarList(by_id("cars"), run, select);
     this.report = new Report(by_id("report_title"), by_id("report"), run, select);
     this.log = new Log(by_id("log"), run, (t) => this.player.seek(t));
-    by_id("scrub").max = String(run.end_s);
+    this.refresh();
     this.listen();
     this.read_address();
+  }
+
+  refresh() {
+    by_id("scrub").max = String(this.run.end_s);
+    this.time_line.set_run(this.run);
     this.draw_static();
     this.show();
   }
@@ -196,20 +200,24 @@ class Page {
   }
 }
 
+export function show_run(run) {
+  root.dataset.theme = kDark.matches ? "dark" : "light";
+  document.title = by_id("title").textContent = `Run of ${run.about.scenario}`;
+  by_id("about").textContent = run_words(run.about);
+  by_id("fault").textContent = fault_words(run.about);
+  return (window.page = new Page(run));
+}
+
 function start() {
   try {
-    root.dataset.theme = kDark.matches ? "dark" : "light";
     const run = new Run();
     for (const message of JSON.parse(by_id("data").textContent)) run.take(message);
-    document.title = by_id("title").textContent = `Run of ${run.about.scenario}`;
-    by_id("about").textContent = run_words(run.about);
-    by_id("fault").textContent = fault_words(run.about);
+    show_run(run);
     if (run.num_steps === 0) by_id("fault").textContent += " No step was reported.";
-    window.page = new Page(run);
   } catch (error) {
     by_id("fault").textContent = `This run cannot be shown: ${error.message}`;
     throw error;
   }
 }
 
-start();
+if (by_id("data").textContent !== "[]") start(); // else live.js does

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "hlc_bridge/view/page_json.hpp"
+#include "hlc_bridge/view/page_messages.hpp"
+
+/// Messages that a finished run and one under way have in common.
+namespace hlc::view {
+
+/// The message `run`: all of the run but rows, drives and log.
+[[nodiscard]] Json run_message(const FinishedRun& run);
+
+/// The message `drive`: states every `tick`.
+/// @param begin  t(0) of the run
+/// @pre samples is not empty
+[[nodiscard]] Json drive_message(int vehicle, std::span<const result::DrivenSample> samples,
+                                 Nanoseconds begin, Nanoseconds tick);
+
+/// A scenario may have more vehicles than a run.
+[[nodiscard]] bool takes_part(VehicleId vehicle, const result::RunFacts& facts);
+
+}  // namespace hlc::view

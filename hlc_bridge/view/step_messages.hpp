@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hlc_bridge/result/run_record.hpp"
+#include "hlc_bridge/view/page_json.hpp"
+
+namespace hlc::view {
+
+/// Numbers values in the order in which they appear.
+template <class Value>
+class Table {
+ public:
+  std::size_t number_of(const Value& value) {
+    const auto [found, is_new] = numbers_.try_emplace(value, values_.size());
+    if (is_new) values_.push_back(value);
+    return found->second;
+  }
+  [[nodiscard]] const std::vector<Value>& values() const { return values_; }
+
+ private:
+  std::map<Value, std::size_t> numbers_;
+  std::vector<Value> values_;
+};
+
+/// The messages `steps` of all vehicles of a run, and `maneuvers` with those that they point to.
+class StepMessages {
+ public:
+  /// @param subgraph  its automaton is that of the plans; nullptr: not known
+  explicit StepMessages(std::shared_ptr<const automaton::Subgraph> subgraph)
+      : subgraph_(std::move(subgraph)) {}
+
+  /// Message `steps`.
+  /// @param rows  of that vehicle, by step
+  /// @param next  its row after them, which shows what is driven in the last of them; nullptr: none
+  [[nodiscard]] Json of(VehicleId vehicle, std::span<const result::StepRecord* const> rows,
+                        const result::StepRecord* next);
+
+  /// Message `maneuvers`: those that `of` numbered since the last call.
+  [[nodiscard]] Json new_maneuvers();
+
+ private:
+  std::shared_ptr<const automaton::Subgraph> subgraph_;
+  Table<const automaton::Maneuver*> maneuvers_;
+  std::size_t num_sent_{};
+};
+
+}  // namespace hlc::view
