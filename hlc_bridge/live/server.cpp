@@ -12,7 +12,7 @@ constexpr std::chrono::seconds kFarewell{2};  ///< for clients to take the end o
 
 asio::ip::address address_of(const std::string& text) {
   error_code error;
-  const asio::ip::address address = asio::ip::make_address(text, error);
+  asio::ip::address address = asio::ip::make_address(text, error);
   if (!error) return address;
   throw std::invalid_argument("--listen = " + text + ", must be an IP address of this machine");
 }

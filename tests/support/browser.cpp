@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace hlc::test {
 namespace {

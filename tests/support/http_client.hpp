@@ -52,7 +52,7 @@ class HttpClient {
     std::size_t found = received_.find(end);
     while (found == std::string::npos && receive()) found = received_.find(end);
     if (found == std::string::npos) return std::exchange(received_, {});
-    const std::string text = received_.substr(0, found + end.size());
+    std::string text = received_.substr(0, found + end.size());
     received_.erase(0, text.size());
     return text;
   }

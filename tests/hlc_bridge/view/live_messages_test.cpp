@@ -106,7 +106,7 @@ TEST(LiveMessages, AStepIsSentWhenTheNextReportShowsItsManeuver) {
   messages.take(run.rows[1].record);
   const std::string portion = messages.portion();
   ASSERT_THAT(of_kind("steps", portion), SizeIs(1));
-  EXPECT_EQ(of_kind("steps", portion)[0].at("columns").at("maneuver"), json({0}));
+  EXPECT_EQ(of_kind("steps", portion)[0].at("columns").at("maneuver"), json::array({0}));
   EXPECT_THAT(of_kind("maneuvers", portion), SizeIs(1)) << "before the steps that point to it";
 }
 
