@@ -71,8 +71,8 @@ class Authority {
  private:
   std::shared_ptr<const right_of_way::ConflictMap> map_;
   coordination::LaneClaim claim_;
-  /// After `extend`: what all hold at the end of the step, as `grant` says; what limits this
-  /// vehicle, itself included.
+  /// After `extend`: what all hold at the end of the step by `grant`; what limits this vehicle,
+  /// itself included.
   std::vector<right_of_way::Holder> granted_;
   std::vector<right_of_way::Holder> holders_;
   std::vector<right_of_way::Blocked> blocked_;

@@ -13,9 +13,6 @@
 namespace hlc::closed_loop {
 namespace {
 
-constexpr std::size_t kFewestCars = 3;
-constexpr std::size_t kMostCars = 8;
-
 /// Faults of a run in real time come while cars drive, some already at the start; a run in logical
 /// time lasts some seconds of true time only. On the circle all have met and stand by then.
 constexpr Nanoseconds kLastFault = 14 * kNanosecondsPerSecond;
@@ -58,12 +55,13 @@ scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars) {
 
 FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::move(settings)) {
   const std::filesystem::path& folder = settings_.scenario_folder;
+  const std::size_t most_cars = std::max(settings_.cars, kMostCars);
   const scenario::Scenario roads =
       settings_.on_lab_network
-          ? scenario::read_scenario({.file = folder / "lab_cars.yaml", .cars = kMostCars})
+          ? scenario::read_scenario({.file = folder / "lab_cars.yaml", .cars = most_cars})
           : scenario::read_scenario({.file = folder / "paper_three_cars.yaml"});
   const controller::PreparedSubgraph on_roads = scenario::prepare_subgraph_of(roads);
-  for (std::size_t cars = kFewestCars; cars <= kMostCars; ++cars) {
+  for (std::size_t cars = kFewestCars; cars <= most_cars; ++cars) {
     if (settings_.cars != 0 && settings_.cars != cars) continue;
     Scenarios scenarios{.circle = {},
                         .roads = {.scenario = with_cars(roads, cars), .subgraph = on_roads}};

@@ -13,12 +13,18 @@
 
 namespace hlc::closed_loop {
 
+inline constexpr std::size_t kFewestCars = 3;
+inline constexpr std::size_t kMostCars = 8;
+inline constexpr std::size_t kMostCarsOnLabNetwork = 20;
+
 struct FaultCampaignSettings {
   std::filesystem::path scenario_folder;  ///< holds circle, paper_three_cars and lab_cars
   bool on_lab_network{};                  ///< all runs on the roads of lab_cars
-  std::size_t cars{};                     ///< 3 ... 8; 0: by the seed
-  std::vector<FaultKind> kinds;           ///< of the faults; empty: no faults
-  bool has_two_rounds{};                  ///< with one that differs in half of the runs
+  /// kFewestCars ... kMostCars, on the roads of lab_cars kMostCarsOnLabNetwork; 0: by the seed,
+  /// kMostCars at most
+  std::size_t cars{};
+  std::vector<FaultKind> kinds;  ///< of the faults; empty: no faults
+  bool has_two_rounds{};         ///< with one that differs in half of the runs
 };
 
 /// The case of a seed.
