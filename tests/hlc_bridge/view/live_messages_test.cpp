@@ -126,8 +126,10 @@ TEST(LiveMessages, TheRunBeginsWithTheFirstStepOfAnyCarWhoeverIsHeardFirst) {
   messages.take(run.rows[0].record);
   messages.take(run.rows[2].record);
   const std::string portion = messages.portion();
-  EXPECT_EQ(rows_of({portion}).begin()->first, std::pair(1, 0));
-  EXPECT_EQ(rows_of({portion}).rbegin()->first, std::pair(2, 15));
+  const auto rows = rows_of({portion});
+  ASSERT_FALSE(rows.empty());
+  EXPECT_EQ(rows.begin()->first, std::pair(1, 0));
+  EXPECT_EQ(rows.rbegin()->first, std::pair(2, 15));
 }
 
 TEST(LiveMessages, ACarThatNeverReportsDoesNotHoldUpTheOthers) {
