@@ -92,7 +92,7 @@ inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
   return allowing(is_good, "in " + shown, shown);
 }
 
-/// The same forevery finite number.
+/// The same for every finite number.
 inline CLI::Validator finite() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return within(-kInfinity, kInfinity);

@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <optional>
+#include <random>
 #include <vector>
 
 #include "planner/apps/flags.hpp"
@@ -20,21 +22,35 @@ namespace {
 
 constexpr int kExitFailed = 2;
 
+struct Choices {
+  hlc::scenario::ScenarioChoices scenario;
+  double lost{};                                                      ///< share of the messages
+  std::size_t lost_steps{std::numeric_limits<std::size_t>::max()};  ///< none is lost later
+  std::uint64_t loss_seed{1};
+};
+
 struct Tally {
   std::vector<hlc::Point> positions_m;  ///< planned, at the steps
   std::uint64_t generated_max{};
   std::uint64_t expanded_max{};
   int fallbacks{};
+  int planned{};
+  double driven_m{};  ///< by the plans
   double longest_wait_s{};
   hlc::coordination::Report last;
   int changed{};  ///< steps in which the others changed the plan
 };
 
 void add(Tally& tally, const hlc::coordination::Report& report, double step_s) {
-  tally.positions_m.push_back(report.planned_pose.position_m());
+  const hlc::Point position_m = report.planned_pose.position_m();
+  if (!tally.positions_m.empty()) {
+    tally.driven_m += (position_m - tally.positions_m.back()).norm();
+  }
+  tally.positions_m.push_back(position_m);
   tally.generated_max = std::max(tally.generated_max, report.generated);
   tally.expanded_max = std::max(tally.expanded_max, report.expanded);
   if (report.status == hlc::coordination::StepStatus::kFallback) ++tally.fallbacks;
+  if (report.status == hlc::coordination::StepStatus::kPlanned) ++tally.planned;
   tally.longest_wait_s = std::max(tally.longest_wait_s, hlc::coordination::wait_s(report, step_s));
   tally.last = report;
 }
@@ -70,11 +86,36 @@ bool others_changed_the_plan(const hlc::controller::Controller& controller,
   return alone.search(problem).cost < report.cost_m2 - 1e-9;
 }
 
-int run(const hlc::scenario::ScenarioChoices& choices) {
-  const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
+void print_all(const std::map<hlc::VehicleId, Tally>& tallies, std::size_t steps, double step_s) {
+  double driven_m = 0.0;
+  double planned = 0.0;
+  double longest_wait_s = 0.0;
+  for (const auto& [id, tally] : tallies) {
+    driven_m += tally.driven_m;
+    planned += tally.planned;
+    longest_wait_s = std::max(longest_wait_s, tally.longest_wait_s);
+  }
+  const auto car_steps = static_cast<double>(steps * tallies.size());
+  std::printf("all: %.3f m/s, new plans in %.1f %% of the steps, longest wait %.1f s\n",
+              driven_m / (step_s * car_steps), 100.0 * planned / car_steps, longest_wait_s);
+}
+
+void lose_messages(hlc::rollout::Rollout& rollout, const Choices& choices) {
+  if (choices.lost == 0.0) return;
+  rollout.lose([random = std::mt19937_64(choices.loss_seed), choices,
+                lost = std::bernoulli_distribution(choices.lost)](
+                   const hlc::controller::Delivery& delivery) mutable {
+    return delivery.step.value <= choices.lost_steps && lost(random);
+  });
+}
+
+int run(const Choices& choices) {
+  const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices.scenario);
   const double step_s = scenario.subgraph->automaton().step_s;
   std::map<hlc::VehicleId, Tally> tallies;
   hlc::rollout::Rollout rollout = hlc::rollout::make_rollout(scenario);
+  rollout.exchange_in(scenario.rounds);
+  lose_messages(rollout, choices);
   const hlc::automaton::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
   const auto alone =
       hlc::search::make_search_engine(*scenario.subgraph, reachable, scenario.search);
@@ -105,6 +146,7 @@ int run(const hlc::scenario::ScenarioChoices& choices) {
     std::printf("stuck at the end: %s\n",
                 hlc::coordination::waiting_text(tally.last, step_s).c_str());
   }
+  print_all(tallies, scenario.steps, step_s);
   std::printf("%zu steps in %.1f ms\n", scenario.steps, wall_ms);
   return 0;
 }
@@ -113,10 +155,21 @@ int run(const hlc::scenario::ScenarioChoices& choices) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Plans a scenario with vehicles that follow perfectly, in one process.", "rollout"};
-  hlc::scenario::ScenarioChoices choices;
-  hlc::apps::declare_scenario_flags(app, choices);
-  app.add_option("--steps", choices.steps, "instead of the scenario's")
+  Choices choices;
+  hlc::apps::declare_scenario_flags(app, choices.scenario);
+  app.add_option("--steps", choices.scenario.steps, "instead of the scenario's")
       ->check(hlc::apps::whole(1, 100000));
+  CLI::Option* const lost =
+      app.add_option("--lost", choices.lost, "share of the messages between cars that are lost")
+          ->check(hlc::apps::within(0.0, 1.0))
+          ->capture_default_str();
+  app.add_option("--lost_steps", choices.lost_steps, "no message is lost later; default: all steps")
+      ->needs(lost)
+      ->check(hlc::apps::whole(0, 100000));
+  app.add_option("--loss_seed", choices.loss_seed, "of which messages are lost")
+      ->needs(lost)
+      ->check(hlc::apps::whole(0, 1'000'000'000'000))
+      ->capture_default_str();
   app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
   return hlc::apps::exit_code_of(

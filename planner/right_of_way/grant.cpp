@@ -162,7 +162,6 @@ std::vector<Holder> cautious_grant(const ConflictMap& map, std::span<const Holde
                                    std::span<const Missing> missing,
                                    std::span<const Blocked> blocked, double look_ahead_m,
                                    VehicleId own) {
-  // What blocks is not the same for all, so nothing blocks the others here.
   Grants held(map, holders, {});
   std::vector<Holder> reached(holders.begin(), holders.end());
   for (std::size_t i = 0; i < reached.size(); ++i) {

@@ -49,16 +49,21 @@ struct Missing {
   double moved_m{};  ///< the longest way that it can have driven since then
 };
 
-/// The holders, the missing ones among them, with all that each can hold at the end of this step,
-/// whatever it has received; for the vehicle `own`, with what it takes if it has not received all:
-/// cells that no other vehicle can take in this step.
+/// For a controller that has not received all: all vehicles with what each may hold at the end of
+/// this step, whatever it has received, and the vehicle `own` with what it takes: cells outside of
+/// all that.
 ///
-/// So no two vehicles ever hold overlapping cells, whatever is lost. Assume that none do at the
-/// beginning of a step. Whoever has received all takes what `grant` says, which is the same for all
-/// of them, and without overlap; and none of it reaches beyond what this function assumes for that
-/// vehicle: all that is free of the cells that are held now. Whoever has not received all takes
-/// nothing of that, for any vehicle. A missing vehicle holds and takes no more than is assumed
-/// here, as those who are received keep all others away from the cells that they hold.
+/// So no two vehicles hold overlapping cells, whatever is lost. By induction, let none do as the
+/// step begins.
+/// * Those that have received all take what `grant` says: the same for all of them, without overlap.
+/// * A vehicle takes only cells that nobody holds as the step begins, up to its look-ahead. For one
+///   that was received this is assumed here in full, so it contains what `grant` gives to it.
+/// * A missing one has driven `moved_m` at most. What it has taken since then was free when it took
+///   it, and is free of the cells of those that were received: they hold theirs still, or hold only
+///   cells behind it that it has left.
+/// * So what a vehicle takes here overlaps nothing that another one holds or takes in this step.
+///
+/// What blocks a vehicle is not the same for all, so nothing blocks the others here.
 /// @pre `own` is one of `holders`, none of `missing`
 [[nodiscard]] std::vector<Holder> cautious_grant(const ConflictMap& map,
                                                  std::span<const Holder> holders,

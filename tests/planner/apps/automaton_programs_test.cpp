@@ -266,6 +266,23 @@ TEST_F(AutomatonPrograms, AScenarioDrivesWithABuiltFileAsWithItsConfiguration) {
   EXPECT_NE(stale.output.find("stale"), std::string::npos) << stale.output;
 }
 
+TEST(Rollout, LosesTheStatedShareOfMessagesForTheStatedTime) {
+  const auto drive = [](const std::string& flags) {
+    const Outcome outcome =
+        run_program("rollout --steps 40 --scenario " + test::source_folder() +
+                    "/launch_scripts/scenarios/paper_three_cars.yaml " + flags);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return outcome.output.substr(0, outcome.output.rfind("40 steps in"));
+  };
+  const std::string lossless = drive("");
+  EXPECT_NE(lossless.find("new plans in 100.0 % of the steps"), std::string::npos) << lossless;
+  EXPECT_EQ(drive("--lost 0.3 --lost_steps 0"), lossless);
+  EXPECT_NE(drive("--lost 0.3"), lossless);
+  EXPECT_NE(drive("--lost 0.3"), drive("--lost 0.3 --loss_seed 2"));
+  EXPECT_EQ(drive("--lost 0.3"), drive("--lost 0.3 --loss_seed 1"));
+  EXPECT_NE(drive("--lost 1").find("new plans in 0.0 % of the steps"), std::string::npos);
+}
+
 TEST(GenerateMap, WritesAMapAndRefusesWhatIsNoFile) {
   const test::TemporaryFolder folder;
   const fs::path map = folder / "map.xml";
