@@ -11,10 +11,6 @@ namespace hlc::controller {
 /// those behind it. In bends vehicles end turned by 0.16 rad, since braking straightens the wheels.
 inline constexpr double kMostTurned_rad = 0.25;
 
-/// A plan that leads on by this much along the path is under way, and may end askew: at the slow
-/// speeds of a gap a horizon may end in the middle of a turn.
-inline constexpr double kLeadsOn_m = 0.1;
-
 /// Angle between the vehicle where the plan ends and the path at its place there, in [0, pi].
 /// @param next     the plan is known from t(next) on
 /// @param tracker  has selected a route
@@ -23,9 +19,10 @@ inline constexpr double kLeadsOn_m = 0.1;
                                        const RouteTracker& tracker, double reach_m);
 
 /// Whether the candidate ends turned by at most kMostTurned_rad, or by no more than the plan in
-/// force (a vehicle that stands askew already may straighten in several plans), or at least
-/// kLeadsOn_m farther along the path. The plan in force itself satisfies this, so it stays a plan
-/// to fall back on, and a plan that does not can be dropped.
+/// force (a vehicle that stands askew already may straighten in several plans). The plan in force
+/// itself satisfies this, so it stays a plan to fall back on, and a plan that does not can be
+/// dropped. No exception for plans that lead on: the vehicle drives to the end of one where
+/// messages are lost.
 /// @param next  from t(next) on the candidate would be driven
 [[nodiscard]] bool ends_along_lane(const coordination::Plan& candidate,
                                    const coordination::Plan& in_force, StepIndex next,
