@@ -19,6 +19,15 @@ namespace {
 
 constexpr double kLookAhead_m = 1.6;
 
+bool are_disjoint(const ConflictMap& map, const std::vector<Holder>& holders) {
+  for (std::size_t i = 0; i < holders.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (hold_overlapping_cells(map, holders[i], holders[j])) return false;
+    }
+  }
+  return true;
+}
+
 bool ends_in_conflict(const ConflictMap& map, const Holder& holder) {
   const std::size_t route = holder.claim.route;
   const double end_m = holder.claim.place_m + holder.claim.ahead_m;
@@ -348,13 +357,7 @@ TEST(CautiousGrant, NoTwoVehiclesHoldOverlappingCellsWhateverIsLost) {
       // Few losses, so that in many steps some have received all and others have not.
       num_cautious +=
           traffic.step_with_losses(step % 2 == 0 ? 0.005 : 0.1, seed % 2 == 0 ? 0.1 : 0.01);
-      for (std::size_t i = 0; i < traffic.holders().size(); ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-          ASSERT_FALSE(
-              hold_overlapping_cells(*drawn.conflicts, traffic.holders()[i], traffic.holders()[j]))
-              << "step " << step << ": " << i << ' ' << j;
-        }
-      }
+      ASSERT_TRUE(are_disjoint(*drawn.conflicts, traffic.holders())) << "step " << step;
     }
   }
   EXPECT_GT(num_cautious, 1000U);
@@ -372,12 +375,7 @@ TEST(Grant, NoneOfTwentyCarsOfTheLabWaitsForever) {
     }
     EXPECT_LT(longest_of_draw, 500U) << "measured: at most 162";
     longest = std::max(longest, longest_of_draw);
-    for (std::size_t i = 0; i < traffic.holders().size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        EXPECT_FALSE(
-            hold_overlapping_cells(*drawn.conflicts, traffic.holders()[i], traffic.holders()[j]));
-      }
-    }
+    EXPECT_TRUE(are_disjoint(*drawn.conflicts, traffic.holders()));
   }
   EXPECT_GT(longest, 10U) << "nobody ever waited: nothing was tried";
   RecordProperty("longest_wait_steps", static_cast<int>(longest));
