@@ -1,13 +1,14 @@
 // Time and input: the clock that plays the run, keys, mouse and touch.
 
-/// The time shown, and how fast it runs.
+import { clamp } from "./model.js";
+
 export class Player {
   constructor(run, on_change) {
     Object.assign(this, { run, on_change, t: 0, speed: 1, direction: 0, last_ms: null });
   }
 
   seek(t) {
-    this.t = Math.max(0, Math.min(this.run.end_s, Number.isFinite(t) ? t : 0));
+    this.t = clamp(Number.isFinite(t) ? t : 0, 0, this.run.end_s);
     this.on_change();
   }
 
@@ -98,8 +99,7 @@ export function listen_to_scrubbing(lines, seek) {
 export function listen_to_keys(actions) {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const tag = event.target.tagName;
-    const { type } = event.target;
+    const { tagName: tag, type } = event.target;
     if (tag === "SELECT" || type === "number") return;
     if ((tag === "BUTTON" || type === "checkbox" || tag === "SUMMARY") && event.key === " ") return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;

@@ -2,6 +2,12 @@
 // Run.take(), as messages that hlc_bridge/view/page_messages.hpp specifies.
 
 const kFormat = 1;
+const kNumColours = 8; // of the style sheet, for cars
+const kNamedColours = { red: 0, blue: 1, green: 2 };
+
+export function clamp(value, least, most) {
+  return Math.max(least, Math.min(most, value));
+}
 
 /// The values of a column, which holds the first one and then the differences.
 function sums(deltas, unit) {
@@ -69,8 +75,9 @@ export class Run {
     this.unit = message.unit_m;
     this.step_s = message.step_s;
     this.lanes = message.lanes.map((bounds) => bounds.map((bound) => line_of(bound, this.unit)));
-    this.vehicles = message.vehicles.map((vehicle) => ({
+    this.vehicles = message.vehicles.map((vehicle, i) => ({
       ...vehicle,
+      colour: kNamedColours[vehicle.name] ?? i % kNumColours,
       route: line_of(vehicle.route, this.unit),
       steps: [], // report of step k at [k]; none where the car did not report
       drives: [], // stretches without a gap
@@ -95,7 +102,11 @@ export class Run {
       status: about.statuses,
       reason: about.reasons,
       quality: about.qualities,
-      ...{ label: names, subgraph: names, coupled: sets, missing: sets, waits_for: sets },
+      label: names,
+      subgraph: names,
+      coupled: sets,
+      missing: sets,
+      waits_for: sets,
       blocked_by: sets,
     };
     const [x, y] = [sums(message.x, unit), sums(message.y, unit)];
@@ -131,7 +142,7 @@ export class Run {
   }
 
   step_at(t) {
-    return Math.max(0, Math.min(this.num_steps - 1, Math.floor(t / this.step_s + 1e-6)));
+    return clamp(Math.floor(t / this.step_s + 1e-6), 0, this.num_steps - 1);
   }
 
   report_at(vehicle, t) {
@@ -144,9 +155,9 @@ export class Run {
       const at = (t - drive.begin_s) / drive.tick_s;
       const last = drive.x.length - 1;
       if (at < -1e-6 || at > last + 1 + 1e-6) continue;
-      const i = Math.max(0, Math.min(last, Math.floor(at)));
+      const i = clamp(Math.floor(at), 0, last);
       const j = Math.min(last, i + 1);
-      const part = Math.max(0, Math.min(1, at - i));
+      const part = clamp(at - i, 0, 1);
       const pose = (n) => ({ x: drive.x[n], y: drive.y[n], yaw: drive.yaw[n] });
       const speed = drive.speed[i] + part * (drive.speed[j] - drive.speed[i]);
       return { ...between(pose(i), pose(j), part), speed };
@@ -181,11 +192,11 @@ export class Run {
     const k = this.step_at(t);
     const report = vehicle.steps[k];
     if (!report || report.label === "") return null;
-    const part = Math.max(0, Math.min(1, t / this.step_s - k));
+    const part = clamp(t / this.step_s - k, 0, 1);
     const motion = this.frame_of_maneuver(vehicle, k);
     if (part < 1e-6) return report.pose;
     if (motion) {
-      const path = motion.maneuver.path;
+      const { path } = motion.maneuver;
       const at = part * (path.length - 1);
       const i = Math.min(path.length - 2, Math.floor(at));
       return compose(motion.frame, between(path[i], path[i + 1], at - i));
@@ -228,7 +239,7 @@ export class Run {
     for (const bound of this.lanes.flat()) bound.forEach(add);
     for (const vehicle of this.vehicles) {
       vehicle.route.forEach(add);
-      for (const drive of vehicle.drives) drive.x.forEach((x, i) => add([x, drive.y[i]]));
+      this.driven_path(vehicle, 0, Infinity).forEach(add);
       vehicle.steps.forEach(({ label, pose }) => label !== "" && add([pose.x, pose.y]));
     }
     return min[0] <= max[0] ? { min, max } : { min: [0, 0], max: [4.5, 4] };

@@ -1,6 +1,6 @@
 // The state of a car in words.
 
-export function ids_text(ids) {
+function ids_text(ids) {
   return ids.length === 1 ? `car ${ids[0]}` : `cars ${ids.join(", ")}`;
 }
 
@@ -86,11 +86,6 @@ export const kTerms = {
   subgraph: "the trims and maneuvers that it may use",
   level: "0 plans first, the others wait for the plans of lower levels",
 };
-
-/// The kind of a whole step, for the time line.
-export function kind_in(run, vehicle, k) {
-  return state_of(run, vehicle, (k + 0.5) * run.step_s).kind;
-}
 
 const kQualities = {
   none: "no plan was found",
