@@ -8,7 +8,7 @@ export class Player {
   }
 
   seek(t) {
-    this.t = clamp(Number.isFinite(t) ? t : 0, 0, this.run.end_s);
+    this.t = clamp(t || 0, 0, this.run.end_s);
     this.on_change();
   }
 
@@ -27,22 +27,22 @@ export class Player {
     this.direction = direction;
     this.last_ms = null;
     this.on_change();
-    if (direction !== 0) requestAnimationFrame((now_ms) => this.advance(now_ms));
+    if (direction !== 0) requestAnimationFrame(this.advance);
   }
 
   toggle(direction) {
     this.play(this.direction === direction ? 0 : direction);
   }
 
-  advance(now_ms) {
+  advance = (now_ms) => {
     if (this.direction === 0) return;
     const since_s = this.last_ms === null ? 0 : (now_ms - this.last_ms) * 1e-3;
     this.last_ms = now_ms;
     this.seek(this.t + this.direction * this.speed * since_s);
     const is_over = this.direction > 0 ? this.t >= this.run.end_s : this.t <= 0;
     if (is_over) this.play(0);
-    else requestAnimationFrame((next_ms) => this.advance(next_ms));
-  }
+    else requestAnimationFrame(this.advance);
+  };
 }
 
 /// Moving and zooming by mouse, wheel and fingers. @param on_click  called with the place of a click

@@ -26,12 +26,11 @@ function path_at(pose, points, closed = true) {
 
 /// Cleared and adapted to page and screen, with one unit per px of the page.
 export function clean_context(canvas) {
-  const width = Math.round(canvas.clientWidth * devicePixelRatio);
-  const height = Math.round(canvas.clientHeight * devicePixelRatio);
-  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+  const ratio = devicePixelRatio;
+  canvas.width = Math.round(canvas.clientWidth * ratio); // clears it
+  canvas.height = Math.round(canvas.clientHeight * ratio);
   const context = canvas.getContext("2d");
-  context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-  context.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
+  context.scale(ratio, ratio);
   return context;
 }
 
@@ -47,10 +46,9 @@ export class MapView {
   set_run(run) {
     this.run = run;
     this.box = run.box();
-    this.lanes = run.lanes.map(([left, right]) => ({
-      area: path_through([...left, ...[...right].reverse()], true),
-      bounds: [path_through(left), path_through(right)],
-    }));
+    const area = ([left, right]) => path_through([...left, ...[...right].reverse()], true);
+    this.lanes = run.lanes.map(area);
+    this.bounds = run.lanes.flat().map((bound) => path_through(bound));
     this.routes = new Map(run.vehicles.map((v) => [v.id, path_through(v.route, v.closed)]));
     if (this.is_fitted) this.fit();
   }
@@ -138,10 +136,8 @@ export class MapView {
     context.lineJoin = "round";
     context.save();
     context.transform(this.scale, 0, 0, -this.scale, ...this.to_canvas([0, 0])); // in the world
-    for (const { area } of this.lanes) this.fill(area, "lane");
-    for (const { bounds } of this.lanes) {
-      for (const bound of bounds) this.stroke(bound, "bound", 1);
-    }
+    for (const lane of this.lanes) this.fill(lane, "lane");
+    for (const bound of this.bounds) this.stroke(bound, "bound", 1);
     for (const vehicle of run.vehicles) this.draw_paths(vehicle, shown);
     for (const vehicle of run.vehicles) this.draw_car(vehicle, shown);
     for (const vehicle of run.vehicles) this.draw_waiting(vehicle, shown.t);
@@ -225,8 +221,7 @@ export class MapView {
 
   /// The cars' numbers on them, and the states of those that do not just drive.
   draw_labels({ t, selected, layers }) {
-    this.context.textAlign = "center";
-    this.context.textBaseline = "middle";
+    Object.assign(this.context, { textAlign: "center", textBaseline: "middle" });
     const [labels, taken] = [[], []]; // taken: places of numbers and labels
     for (const vehicle of this.run.vehicles) {
       const pose = this.place(vehicle, t);

@@ -35,9 +35,9 @@ function take(message) {
 function join(drives) {
   const [before, last] = drives.slice(-2);
   if (!last || before.tick_s !== last.tick_s) return;
-  const end_s = before.begin_s + before.tick_s * (before.x.length - 1);
+  const end_s = before.begin_s + before.tick_s * (before.states.length - 1);
   if (Math.abs(end_s - last.begin_s) > 1e-6) return;
-  for (const name of ["x", "y", "yaw", "speed"]) before[name].push(...last[name].slice(1));
+  before.states.push(...last.states.slice(1));
   drives.pop();
 }
 

@@ -2,14 +2,13 @@
 
 import { Run } from "./model.js";
 import { MapView } from "./draw.js";
-import { TimeLine, draw_planning, fill_legend } from "./timeline.js";
+import { TimeLine } from "./timeline.js";
 import { CarList, Log, Report, fault_words, run_words } from "./panel.js";
 import { Player, listen_to_keys, listen_to_pointers, listen_to_scrubbing } from "./controls.js";
 
 export const by_id = (id) => document.getElementById(id);
 const root = document.documentElement;
 const kDark = matchMedia("(prefers-color-scheme: dark)");
-const kLayers = ["reference", "planned", "driven", "areas", "labels"];
 
 class Page {
   constructor(run) {
@@ -41,10 +40,12 @@ class Page {
 
   /// {t, selected: id or null, follow, layers: {reference, planned, driven, areas, labels}}
   get shown() {
-    const layers = Object.fromEntries(kLayers.map((name) => [name, by_id(name).checked]));
+    const boxes = [...document.querySelectorAll("#layers input")];
+    const layers = Object.fromEntries(boxes.map(({ id, checked }) => [id, checked]));
     return { t: this.player.t, selected: this.selected, follow: this.follow, layers };
   }
 
+  /// No car, if there is none with this id.
   select(id) {
     this.selected = this.run.vehicle(id) ? id : null;
     this.draw_static();
@@ -61,7 +62,7 @@ class Page {
   }
 
   draw() {
-    const { run, shown } = this;
+    const { run, player, shown } = this;
     this.map.draw(shown);
     this.list.show(shown);
     this.report.show(shown);
@@ -70,8 +71,8 @@ class Page {
     by_id("step").textContent = `step ${run.step_at(shown.t)} (0 to ${run.num_steps - 1})`;
     if (document.activeElement !== by_id("time")) by_id("time").value = shown.t.toFixed(2);
     by_id("scrub").value = shown.t;
-    by_id("play").ariaPressed = this.player.direction === 1;
-    by_id("back").ariaPressed = this.player.direction === -1;
+    by_id("play").ariaPressed = player.direction === 1;
+    by_id("back").ariaPressed = player.direction === -1;
     this.keep_address();
   }
 
@@ -89,8 +90,8 @@ class Page {
   draw_static() {
     const { time_line, shown, selected } = this;
     time_line.draw(shown);
-    draw_planning(by_id("planning"), time_line, shown);
-    fill_legend(by_id("legend"), time_line);
+    time_line.draw_planning(by_id("planning"), shown);
+    time_line.fill_legend(by_id("legend"));
     const of = selected === null ? "the slowest car" : `car ${selected}`;
     by_id("planning_title").textContent =
       `planning time of ${of} in every step, logarithmic; dashed: the step of ${this.run.step_s} s`;
@@ -99,10 +100,7 @@ class Page {
 
   listen() {
     listen_to_pointers(by_id("map"), this.map, {
-      on_click: (x, y) => {
-        const vehicle = this.map.car_at(x, y, this.player.t);
-        this.select(vehicle ? vehicle.id : null);
-      },
+      on_click: (x, y) => this.select(this.map.car_at(x, y, this.player.t)?.id),
       on_move: () => this.show(),
     });
     listen_to_scrubbing(by_id("times"), ({ type, target, offsetX, offsetY }) => {
@@ -161,7 +159,7 @@ class Page {
 
   select_next(change) {
     const { vehicles } = this.run;
-    const now = vehicles.findIndex((vehicle) => vehicle.id === this.selected);
+    const now = vehicles.findIndex(({ id }) => id === this.selected);
     const next = now < 0 && change < 0 ? -1 : now + change;
     this.select(vehicles.at(next % vehicles.length).id);
   }

@@ -1,7 +1,7 @@
 // The text beside the map: cars, report, log. Text of the run is never markup: tags show as they are.
 
 import { clamp } from "./model.js";
-import { kTerms, planning_words, report_rows, seconds, state_of } from "./words.js";
+import { kTerms, milliseconds, report_rows, seconds, state_of } from "./words.js";
 
 export function element(tag, text = "", attributes = {}) {
   const made = document.createElement(tag);
@@ -45,7 +45,7 @@ export class CarList {
       const { kind, words } = state_of(this.run, vehicle, t);
       const report = this.run.report_at(vehicle, t);
       set_text(state, words);
-      set_text(planning, report ? planning_words(this.run, report).split(",")[0] : "");
+      set_text(planning, report ? milliseconds(report.planning_s) : "");
       if (row.dataset.kind !== kind) row.dataset.kind = kind;
       row.classList.toggle("late", Boolean(report?.is_late));
       row.classList.toggle("selected", vehicle.id === selected);

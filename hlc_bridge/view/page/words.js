@@ -94,11 +94,11 @@ const kQualities = {
   unproven: "not proven optimal",
 };
 
-function milliseconds(value_s) {
+export function milliseconds(value_s) {
   return `${(value_s * 1e3).toFixed(2)} ms`;
 }
 
-export function planning_words(run, report) {
+function planning_words(run, report) {
   const late = report.is_late ? `, answer late by ${milliseconds(report.late_s)}` : "";
   const share = (100 * report.planning_s) / run.step_s;
   const percent = share.toFixed(share < 1 ? 2 : 0);

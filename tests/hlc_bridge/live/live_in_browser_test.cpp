@@ -123,7 +123,7 @@ TEST_F(LiveInBrowser, ABrokenConnectionIsNamedAndNothingIsLostOrTwiceThere) {
   append(then, *server);
   ASSERT_TRUE(browser_->becomes_true("page.run.num_steps === 19"));
   EXPECT_EQ(browser_->value_of("document.getElementById('fault').textContent"), "");
-  EXPECT_EQ(browser_->value_of("page.run.vehicles.map((car) => car.drives.map(({x}) => x.length))"),
+  EXPECT_EQ(browser_->value_of("page.run.vehicles.map((car) => car.drives.map(({states}) => states.length))"),
             nlohmann::json::parse("[[200], [200], [200]]"));
   EXPECT_EQ(browser_->value_of("page.run.maneuvers.length"), 2);
 }
