@@ -165,9 +165,9 @@ export class Run {
 
   driven_path(vehicle, from_s, to_s) {
     return vehicle.drives.flatMap(({ begin_s, tick_s, states }) => {
-      const index = (t) => Math.max(0, (t - begin_s) / tick_s);
-      const driven = states.slice(Math.ceil(index(from_s)), Math.floor(index(to_s)) + 1);
-      return driven.map(({ x, y }) => [x, y]);
+      const first = Math.max(0, Math.ceil((from_s - begin_s) / tick_s));
+      const end = Math.max(0, Math.floor((to_s - begin_s) / tick_s) + 1);
+      return states.slice(first, end).map(({ x, y }) => [x, y]);
     });
   }
 
