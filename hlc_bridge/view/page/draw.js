@@ -127,12 +127,12 @@ export class MapView {
 
   /// @param shown  of Page
   draw(shown) {
-    const { canvas, context, run } = this;
+    const { context, run } = this;
     if (this.is_fitted) this.fit();
     const followed = shown.follow && run.vehicle(shown.selected);
     const pose = followed && this.place(followed, shown.t);
     if (pose) this.centre = [pose.x, pose.y];
-    clean_context(canvas);
+    clean_context(this.canvas);
     context.lineJoin = "round";
     context.save();
     context.transform(this.scale, 0, 0, -this.scale, ...this.to_canvas([0, 0])); // in the world
@@ -166,8 +166,7 @@ export class MapView {
       this.stroke(path_through(run.driven_path(vehicle, from_s, t)), fill, width_px, [], fade);
     }
     if (layers.planned) {
-      const to = k + 1 + run.about.horizon_steps;
-      const path = path_through(run.planned_path(vehicle, k, to));
+      const path = path_through(run.planned_path(vehicle, k, k + 1 + run.about.horizon_steps));
       this.stroke(path, "ground", 5, [], 0.7 * fade);
       this.stroke(path, fill, 3, [7, 4], fade);
     }

@@ -123,7 +123,7 @@ class Page {
     const seek = ({ target }) => this.player.seek(Number(target.value));
     on("theme", "click", () => this.set_theme(root.dataset.theme !== "dark"));
     on("follow", "change", () => this.set_follow(this.follow));
-    on("speed", "change", () => (this.player.speed = Number(by_id("speed").value)));
+    on("speed", "change", ({ target }) => (this.player.speed = Number(target.value)));
     on("scrub", "input", seek);
     on("time", "change", seek);
     on("layers", "change", () => this.show());

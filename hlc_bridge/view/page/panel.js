@@ -68,8 +68,7 @@ export class Report {
   show({ t, selected }) {
     const vehicle = this.run.vehicle(selected);
     const rows = vehicle ? report_rows(this.run, vehicle, t) : [];
-    const k = this.run.step_at(t);
-    const title = vehicle && `Car ${vehicle.id} (${vehicle.name}) in step ${k}`;
+    const title = vehicle && `Car ${vehicle.id} (${vehicle.name}) in step ${this.run.step_at(t)}`;
     set_text(this.title, title || "Click on a car to see its report.");
     const now = JSON.stringify([selected, rows]);
     if (now === this.shown) return;
@@ -103,7 +102,7 @@ export class Log {
       const row = element("li", "", { class: level });
       const time = run_s === null ? stamp.slice(11) : seconds(run_s);
       row.append(element("time", time), element("b", process), element("span", text));
-      if (level !== "info" && level !== "") row.append(element("em", level));
+      if (!["", "info"].includes(level)) row.append(element("em", level));
       if (run_s !== null) row.addEventListener("click", () => seek(run_s));
       list.append(row);
       return { row, run_s };

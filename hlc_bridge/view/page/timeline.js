@@ -97,9 +97,9 @@ export class TimeLine {
       const y = row * this.row_px;
       const is_selected = vehicle.id === selected;
       context.font = `${is_selected ? 700 : 400} ${Math.min(11, this.row_px - 1)}px sans-serif`;
-      Object.assign(context, { textAlign: "right", textBaseline: "middle" });
-      context.fillStyle = colour("text");
-      const name = `${is_selected ? "> " : ""}${vehicle.id}`;
+      const fillStyle = colour("text");
+      Object.assign(context, { fillStyle, textAlign: "right", textBaseline: "middle" });
+      const name = (is_selected ? "> " : "") + vehicle.id;
       context.fillText(name, kLeft_px - 5, y + this.row_px / 2);
       for (const stretch of this.stretches[row]) this.draw_stretch(context, vehicle, stretch, y);
     });
@@ -109,8 +109,7 @@ export class TimeLine {
   draw_stretch(context, vehicle, { kind, from, to }, y) {
     const left = this.x_of(from * this.run.step_s);
     const width = Math.max(1, this.x_of(to * this.run.step_s) - left);
-    const box = [left, y + 1, width, this.row_px - 2];
-    draw_step(context, kind, box, `car-${vehicle.colour}`);
+    draw_step(context, kind, [left, y + 1, width, this.row_px - 2], `car-${vehicle.colour}`);
   }
 
   draw_marks(context) {
@@ -137,9 +136,8 @@ export class TimeLine {
       const sample = document.createElement("canvas");
       entry.append(sample, words);
       element.append(entry);
-      const context = clean_context(sample);
       const box = [0, 0, sample.clientWidth, sample.clientHeight];
-      draw_step(context, kind, box, "text");
+      draw_step(clean_context(sample), kind, box, "text");
     }
   }
 
