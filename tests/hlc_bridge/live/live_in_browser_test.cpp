@@ -118,8 +118,9 @@ TEST_F(LiveInBrowser, WhyACarKeepsItsPlanOrWaitsIsNamedAsInAFinishedRun) {
   browser_->open(url_of(server));
   ASSERT_TRUE(browser_->becomes_true("window.page && page.run.num_steps > 110"));
   const auto state_at = [this](const std::string& t) {
-    return browser_->value_of("page.player.seek(" + t +
-                              "), page.draw(), document.getElementById('car_2').cells[2].textContent")
+    return browser_
+        ->value_of("page.player.seek(" + t +
+                   "), page.draw(), document.getElementById('car_2').cells[2].textContent")
         .get<std::string>();
   };
   EXPECT_THAT(state_at("1.7"), StartsWith("keeps its plan: conflict with car 3"));
