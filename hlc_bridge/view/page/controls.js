@@ -1,13 +1,14 @@
 // Time and input: the clock that plays the run, keys, mouse and touch.
 
-/// The time shown, and how fast it runs.
+import { clamp } from "./model.js";
+
 export class Player {
   constructor(run, on_change) {
     Object.assign(this, { run, on_change, t: 0, speed: 1, direction: 0, last_ms: null });
   }
 
   seek(t) {
-    this.t = Math.max(0, Math.min(this.run.end_s, Number.isFinite(t) ? t : 0));
+    this.t = clamp(t || 0, 0, this.run.end_s);
     this.on_change();
   }
 
@@ -26,22 +27,22 @@ export class Player {
     this.direction = direction;
     this.last_ms = null;
     this.on_change();
-    if (direction !== 0) requestAnimationFrame((now_ms) => this.advance(now_ms));
+    if (direction !== 0) requestAnimationFrame(this.advance);
   }
 
   toggle(direction) {
     this.play(this.direction === direction ? 0 : direction);
   }
 
-  advance(now_ms) {
+  advance = (now_ms) => {
     if (this.direction === 0) return;
     const since_s = this.last_ms === null ? 0 : (now_ms - this.last_ms) * 1e-3;
     this.last_ms = now_ms;
     this.seek(this.t + this.direction * this.speed * since_s);
     const is_over = this.direction > 0 ? this.t >= this.run.end_s : this.t <= 0;
     if (is_over) this.play(0);
-    else requestAnimationFrame((next_ms) => this.advance(next_ms));
-  }
+    else requestAnimationFrame(this.advance);
+  };
 }
 
 /// Moving and zooming by mouse, wheel and fingers. @param on_click  called with the place of a click
@@ -98,8 +99,7 @@ export function listen_to_scrubbing(lines, seek) {
 export function listen_to_keys(actions) {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const tag = event.target.tagName;
-    const { type } = event.target;
+    const { tagName: tag, type } = event.target;
     if (tag === "SELECT" || type === "number") return;
     if ((tag === "BUTTON" || type === "checkbox" || tag === "SUMMARY") && event.key === " ") return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;

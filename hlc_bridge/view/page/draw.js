@@ -1,31 +1,14 @@
 // The map: lanes, paths, areas and cars at one time, on a canvas. World coordinates in m, y up.
 
-import { compose, point_in } from "./model.js";
+import { clamp, point_in } from "./model.js";
 import { state_of } from "./words.js";
 
 const kTrail_s = 4; // of the driven path
-const kNumColours = 8;
 const kBar_px = 36; // of the buttons above and below
-const kNamed = { red: 0, blue: 1, green: 2 };
 
-/// Colour of a car: that of its name, otherwise by its place in the run.
-export function colour_index(run, vehicle) {
-  const named = kNamed[vehicle.name];
-  return named !== undefined ? named : run.vehicles.indexOf(vehicle) % kNumColours;
-}
-
-/// As the style sheet gives them, light or dark.
-export function read_colours() {
-  const style = getComputedStyle(document.documentElement);
-  const value = (name) => style.getPropertyValue(`--${name}`).trim();
-  const colours = { cars: [] };
-  for (let i = 0; i < kNumColours; ++i) {
-    colours.cars.push({ fill: value(`car-${i}`), ink: value(`ink-${i}`) });
-  }
-  for (const name of ["ground", "lane", "bound", "text", "muted", "alarm"]) {
-    colours[name] = value(name);
-  }
-  return colours;
+/// As the style sheet gives it, light or dark. @param name  such as "text", "car-0"
+export function colour(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
 }
 
 const font_of = (size_px) => `600 ${size_px}px system-ui, sans-serif`;
@@ -41,13 +24,14 @@ function path_at(pose, points, closed = true) {
   return path_through(points.map((point) => point_in(pose, point)), closed);
 }
 
-/// Adapts the canvas to page and screen. @return its pixels per px of the page
-export function adapt(canvas) {
-  const ratio = window.devicePixelRatio || 1;
-  const width = Math.round(canvas.clientWidth * ratio);
-  const height = Math.round(canvas.clientHeight * ratio);
-  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-  return ratio;
+/// Cleared and adapted to page and screen, with one unit per px of the page.
+export function clean_context(canvas) {
+  const ratio = devicePixelRatio;
+  canvas.width = Math.round(canvas.clientWidth * ratio); // clears it
+  canvas.height = Math.round(canvas.clientHeight * ratio);
+  const context = canvas.getContext("2d");
+  context.scale(ratio, ratio);
+  return context;
 }
 
 export class MapView {
@@ -57,22 +41,20 @@ export class MapView {
     this.centre = [0, 0];
     this.scale = 100; // px per m
     this.is_fitted = true; // until the user zooms or moves
-    this.colours = read_colours();
   }
 
-  /// After a change of the run's map or routes.
   set_run(run) {
     this.run = run;
-    this.lanes = run.lanes.map(([left, right]) => ({
-      area: path_through([...left, ...[...right].reverse()], true),
-      bounds: [path_through(left), path_through(right)],
-    }));
+    this.box = run.box();
+    const area = ([left, right]) => path_through([...left, ...[...right].reverse()], true);
+    this.lanes = run.lanes.map(area);
+    this.bounds = run.lanes.flat().map((bound) => path_through(bound));
     this.routes = new Map(run.vehicles.map((v) => [v.id, path_through(v.route, v.closed)]));
-    this.fit();
+    if (this.is_fitted) this.fit();
   }
 
   fit() {
-    const { min, max } = this.run.box();
+    const { min, max } = this.box;
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const margin_m = 0.2;
     const across = max[0] - min[0] + 2 * margin_m;
@@ -89,7 +71,7 @@ export class MapView {
   /// What is at (x, y) on the canvas stays there.
   zoom(factor, x = this.middle[0], y = this.middle[1]) {
     const before = this.scale;
-    this.scale = Math.max(5, Math.min(5000, before * factor));
+    this.scale = clamp(before * factor, 5, 5000);
     const growth = this.scale / before - 1;
     this.move((this.middle[0] - x) * growth, (this.middle[1] - y) * growth);
   }
@@ -121,91 +103,72 @@ export class MapView {
       const pose = this.place(vehicle, t);
       if (!pose) continue;
       const at = this.to_canvas([pose.x, pose.y]);
-      const inside_px = (0.4 * vehicle.length_m * this.scale) | 0;
+      const inside_px = 0.4 * vehicle.length_m * this.scale;
       const apart_px = Math.max(0, Math.hypot(at[0] - x, at[1] - y) - inside_px);
       if (apart_px < least_px) [nearest, least_px] = [vehicle, apart_px];
     }
     return nearest;
   }
 
-  /// From here on drawing is in world coordinates.
-  use_world() {
-    const s = this.scale * this.ratio;
-    const [x, y] = this.to_canvas([0, 0]);
-    this.context.setTransform(s, 0, 0, -s, x * this.ratio, y * this.ratio);
-  }
-
-  use_canvas() {
-    this.context.globalAlpha = 1;
-    this.context.setLineDash([]);
-    this.context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-  }
-
+  /// @param name  of the colour
   /// @param dashes  in px
-  stroke(path, colour, width_px, dashes = [], opacity = 1) {
+  stroke(path, name, width_px, dashes = [], opacity = 1) {
     const { context, scale } = this;
     const lineWidth = width_px / scale;
-    Object.assign(context, { globalAlpha: opacity, strokeStyle: colour, lineWidth });
+    Object.assign(context, { globalAlpha: opacity, strokeStyle: colour(name), lineWidth });
     context.setLineDash(dashes.map((px) => px / scale));
     context.stroke(path);
   }
 
-  fill(path, colour, opacity = 1) {
-    Object.assign(this.context, { globalAlpha: opacity, fillStyle: colour });
+  fill(path, name, opacity = 1) {
+    Object.assign(this.context, { globalAlpha: opacity, fillStyle: colour(name) });
     this.context.fill(path);
   }
 
-  colour_of(vehicle) {
-    return this.colours.cars[colour_index(this.run, vehicle)];
-  }
-
-  /// @param shown  {t, selected: id or null, follow, layers: {reference, driven, planned, areas}}
+  /// @param shown  of Page
   draw(shown) {
-    this.ratio = adapt(this.canvas);
+    const { context, run } = this;
     if (this.is_fitted) this.fit();
-    const followed = shown.follow && this.run.vehicle(shown.selected);
+    const followed = shown.follow && run.vehicle(shown.selected);
     const pose = followed && this.place(followed, shown.t);
     if (pose) this.centre = [pose.x, pose.y];
-    this.use_canvas();
-    this.context.lineJoin = "round";
-    this.context.fillStyle = this.colours.ground;
-    this.context.fillRect(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
-    this.use_world();
-    for (const { area } of this.lanes) this.fill(area, this.colours.lane);
-    for (const bound of this.lanes.flatMap(({ bounds }) => bounds)) {
-      this.stroke(bound, this.colours.bound, 1);
-    }
-    for (const vehicle of this.run.vehicles) this.draw_paths(vehicle, shown);
-    for (const vehicle of this.run.vehicles) this.draw_car(vehicle, shown);
-    for (const vehicle of this.run.vehicles) this.draw_waiting(vehicle, shown.t);
-    this.use_canvas();
+    clean_context(this.canvas);
+    context.lineJoin = "round";
+    context.save();
+    context.transform(this.scale, 0, 0, -this.scale, ...this.to_canvas([0, 0])); // in the world
+    for (const lane of this.lanes) this.fill(lane, "lane");
+    for (const bound of this.bounds) this.stroke(bound, "bound", 1);
+    for (const vehicle of run.vehicles) this.draw_paths(vehicle, shown);
+    for (const vehicle of run.vehicles) this.draw_car(vehicle, shown);
+    for (const vehicle of run.vehicles) this.draw_waiting(vehicle, shown.t);
+    context.restore();
     this.draw_labels(shown);
   }
 
   draw_paths(vehicle, { t, selected, layers }) {
-    const run = this.run;
-    const colour = this.colour_of(vehicle).fill;
+    const { run } = this;
+    const fill = `car-${vehicle.colour}`;
     const is_selected = vehicle.id === selected;
     const fade = selected === null || is_selected ? 1 : 0.35;
     const k = run.step_at(t);
     if (layers.reference) {
-      this.stroke(this.routes.get(vehicle.id), colour, is_selected ? 2 : 1, [2, 4], 0.8 * fade);
+      this.stroke(this.routes.get(vehicle.id), fill, is_selected ? 2 : 1, [2, 4], 0.8 * fade);
     }
     const area = layers.areas && run.area_in(vehicle, k);
     if (area) {
-      this.fill(path_through(area, true), colour, 0.22);
-      this.stroke(path_through(area, true), colour, 1, [], 0.7);
+      const outline = path_through(area, true);
+      this.fill(outline, fill, 0.22);
+      this.stroke(outline, fill, 1, [], 0.7);
     }
     if (layers.driven) {
       const from_s = is_selected ? 0 : t - kTrail_s;
       const width_px = is_selected ? 2 : 3;
-      this.stroke(path_through(run.driven_path(vehicle, from_s, t)), colour, width_px, [], fade);
+      this.stroke(path_through(run.driven_path(vehicle, from_s, t)), fill, width_px, [], fade);
     }
     if (layers.planned) {
-      const to = k + 1 + run.about.horizon_steps;
-      const path = path_through(run.planned_path(vehicle, k, to));
-      this.stroke(path, this.colours.ground, 5, [], 0.7 * fade);
-      this.stroke(path, colour, 3, [7, 4], fade);
+      const path = path_through(run.planned_path(vehicle, k, k + 1 + run.about.horizon_steps));
+      this.stroke(path, "ground", 5, [], 0.7 * fade);
+      this.stroke(path, fill, 3, [7, 4], fade);
     }
   }
 
@@ -213,7 +176,7 @@ export class MapView {
     const pose = this.place(vehicle, t);
     if (!pose) return;
     const planned = layers.planned && this.run.planned_at(vehicle, t);
-    const { fill } = this.colour_of(vehicle);
+    const fill = `car-${vehicle.colour}`;
     if (planned) this.stroke(this.rectangle(vehicle, planned), fill, 1.5, [3, 2]);
     const body = this.rectangle(vehicle, pose);
     const { kind } = state_of(this.run, vehicle, t);
@@ -222,12 +185,12 @@ export class MapView {
     const { length_m, width_m } = vehicle;
     const bonnet = { length_m: 0.14 * length_m, width_m: 0.8 * width_m };
     const [x, y] = point_in(pose, [0.38 * length_m, 0]);
-    this.fill(this.rectangle(bonnet, { ...pose, x, y }), this.colours.ground);
-    this.stroke(body, alarms ? this.colours.alarm : this.colours.text, alarms ? 3 : 1.2);
+    this.fill(this.rectangle(bonnet, { ...pose, x, y }), "ground");
+    this.stroke(body, alarms ? "alarm" : "text", alarms ? 3 : 1.2);
     if (vehicle.id !== selected) return;
     const ring = new Path2D();
-    ring.arc(pose.x, pose.y, Math.max(vehicle.length_m * 0.75, 18 / this.scale), 0, 2 * Math.PI);
-    this.stroke(ring, this.colours.text, 2);
+    ring.arc(pose.x, pose.y, Math.max(length_m * 0.75, 18 / this.scale), 0, 2 * Math.PI);
+    this.stroke(ring, "text", 2);
   }
 
   rectangle({ length_m, width_m }, pose) {
@@ -250,23 +213,21 @@ export class MapView {
       const [back, side] = [tip - 10 / this.scale, 4 / this.scale];
       const points = [[-apart_m, 0], [tip, 0], [back, side], [tip, 0], [back, -side]];
       const arrow = path_at({ ...to, yaw: Math.atan2(dy, dx) }, points, false);
-      this.stroke(arrow, this.colours.ground, 5);
-      this.stroke(arrow, this.colours.alarm, 2);
+      this.stroke(arrow, "ground", 5);
+      this.stroke(arrow, "alarm", 2);
     }
   }
 
   /// The cars' numbers on them, and the states of those that do not just drive.
   draw_labels({ t, selected, layers }) {
-    this.context.textAlign = "center";
-    this.context.textBaseline = "middle";
+    Object.assign(this.context, { textAlign: "center", textBaseline: "middle" });
     const [labels, taken] = [[], []]; // taken: places of numbers and labels
     for (const vehicle of this.run.vehicles) {
       const pose = this.place(vehicle, t);
       if (!pose) continue;
-      const { fill, ink } = this.colour_of(vehicle);
       const [x, y] = this.to_canvas(point_in(pose, [-0.12 * vehicle.length_m, 0]));
-      const size_px = Math.max(11, Math.min(22, 0.8 * vehicle.width_m * this.scale));
-      this.text(String(vehicle.id), x, y, ink, size_px, fill);
+      const size_px = clamp(0.8 * vehicle.width_m * this.scale, 11, 22);
+      this.text(vehicle.id, x, y, size_px, `ink-${vehicle.colour}`, `car-${vehicle.colour}`);
       taken.push({ x, y, half: 8 });
       const { short } = state_of(this.run, vehicle, t);
       if (short && (layers.labels || vehicle.id === selected)) {
@@ -278,21 +239,21 @@ export class MapView {
 
   /// Below its car, farther down where others are, then with a line to the car.
   draw_label(words, x, y, taken) {
-    const { context, colours } = this;
+    const { context } = this;
     context.font = font_of(12);
     const half = context.measureText(words).width / 2 + 3;
     const meets = (one) => Math.abs(one.x - x) < one.half + half && Math.abs(one.y - at) < 13;
     let at = y;
     while (taken.some(meets)) at += 7;
     taken.push({ x, y: at, half });
-    context.fillStyle = colours.text;
+    context.fillStyle = colour("text");
     if (at > y) context.fillRect(x, y - 10, 1, at - y);
-    this.text(words, x, at, colours.text, 12);
+    this.text(words, x, at, 12);
   }
 
-  text(words, x, y, colour, size_px, halo = this.colours.ground) {
+  text(words, x, y, size_px, name = "text", halo = "ground") {
     const { context } = this;
-    Object.assign(context, { lineWidth: 4, strokeStyle: halo, fillStyle: colour });
+    Object.assign(context, { strokeStyle: colour(halo), fillStyle: colour(name), lineWidth: 4 });
     context.font = font_of(size_px);
     context.strokeText(words, x, y);
     context.fillText(words, x, y);

@@ -3,22 +3,19 @@
 import { Run } from "./model.js";
 import { element } from "./panel.js";
 import { listen_to_keys } from "./controls.js";
-import { show_run } from "./main.js";
+import { by_id, refuse_run, report, show_run } from "./main.js";
 
 const kPause_ms = 200; // between two drawings of the time line; to approach the newest moment
 
-const by_id = (id) => document.getElementById(id);
 const run = new Run();
 const button = element("button", "live", { id: "live", title: "to the newest moment (L)" });
 let page = null;
 let is_following = true;
 let has_news = false;
-let is_fitted = false; // to the cars, where there are no lanes
 let shown_s = 0;
 let last_ms = 0;
 let refreshed_ms = 0;
 
-const report = (text) => (by_id("fault").textContent = text);
 const follow = () => (is_following = true);
 
 function take(message) {
@@ -38,15 +35,10 @@ function take(message) {
 function join(drives) {
   const [before, last] = drives.slice(-2);
   if (!last || before.tick_s !== last.tick_s) return;
-  const end_s = before.begin_s + before.tick_s * (before.x.length - 1);
+  const end_s = before.begin_s + before.tick_s * (before.states.length - 1);
   if (Math.abs(end_s - last.begin_s) > 1e-6) return;
-  for (const name of ["x", "y", "yaw", "speed"]) before[name].push(...last[name].slice(1));
+  before.states.push(...last.states.slice(1));
   drives.pop();
-}
-
-/// The last step of which all is known ends where the newest one begins.
-function newest_s() {
-  return Math.max(0, run.end_s - run.step_s);
 }
 
 function advance(now_ms) {
@@ -57,13 +49,13 @@ function advance(now_ms) {
     has_news = false;
     refreshed_ms = now_ms;
     page.refresh();
-    if (!is_fitted && page.map.is_fitted) page.map.fit();
-    is_fitted = run.num_steps > 0;
   }
   const { player } = page;
   if (player.t !== shown_s) is_following = false; // the user has moved it
-  button.setAttribute("aria-pressed", String(is_following));
-  if (is_following) player.seek(player.t + part * (newest_s() - player.t));
+  button.ariaPressed = is_following;
+  // The last step of which all is known ends where the newest one begins.
+  const newest_s = Math.max(0, run.end_s - run.step_s);
+  if (is_following) player.seek(player.t + part * (newest_s - player.t));
   shown_s = player.t;
 }
 
@@ -73,8 +65,7 @@ events.onmessage = ({ data }) => {
     JSON.parse(data).forEach(take);
   } catch (error) {
     events.close();
-    report(`This run cannot be shown: ${error.message}`);
-    throw error;
+    refuse_run(error);
   }
   has_news = true;
   if (page) return;

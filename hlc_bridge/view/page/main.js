@@ -1,23 +1,21 @@
 // Puts the page together. The run is in the element "data": a JSON array of messages.
 
 import { Run } from "./model.js";
-import { MapView, read_colours } from "./draw.js";
-import { TimeLine, draw_planning, fill_legend } from "./timeline.js";
+import { MapView } from "./draw.js";
+import { TimeLine } from "./timeline.js";
 import { CarList, Log, Report, fault_words, run_words } from "./panel.js";
 import { Player, listen_to_keys, listen_to_pointers, listen_to_scrubbing } from "./controls.js";
 
-const by_id = (id) => document.getElementById(id);
+export const by_id = (id) => document.getElementById(id);
 const root = document.documentElement;
 const kDark = matchMedia("(prefers-color-scheme: dark)");
-const kLayers = ["reference", "planned", "driven", "areas", "labels"];
 
 class Page {
   constructor(run) {
     this.run = run;
     this.selected = null;
     this.map = new MapView(by_id("map"));
-    this.map.set_run(run);
-    this.time_line = new TimeLine(by_id("time_line"), this.map.colours);
+    this.time_line = new TimeLine(by_id("time_line"));
     this.player = new Player(run, () => this.show());
     const select = (id) => this.select(id);
     this.list = new CarList(by_id("cars"), run, select);
@@ -28,26 +26,29 @@ class Page {
     this.read_address();
   }
 
+  /// After new messages of the run.
   refresh() {
-    by_id("scrub").max = String(this.run.end_s);
+    by_id("scrub").max = this.run.end_s;
+    this.map.set_run(this.run);
     this.time_line.set_run(this.run);
     this.draw_static();
-    this.show();
   }
 
   get follow() {
     return by_id("follow").checked;
   }
 
+  /// {t, selected: id or null, follow, layers: {reference, planned, driven, areas, labels}}
   get shown() {
-    const layers = Object.fromEntries(kLayers.map((name) => [name, by_id(name).checked]));
+    const boxes = [...document.querySelectorAll("#layers input")];
+    const layers = Object.fromEntries(boxes.map(({ id, checked }) => [id, checked]));
     return { t: this.player.t, selected: this.selected, follow: this.follow, layers };
   }
 
+  /// No car, if there is none with this id.
   select(id) {
     this.selected = this.run.vehicle(id) ? id : null;
     this.draw_static();
-    this.show();
   }
 
   /// Draws once per frame, however many changes there were.
@@ -61,7 +62,7 @@ class Page {
   }
 
   draw() {
-    const { run, shown } = this;
+    const { run, player, shown } = this;
     this.map.draw(shown);
     this.list.show(shown);
     this.report.show(shown);
@@ -69,9 +70,9 @@ class Page {
     by_id("cursor").style.left = `${this.time_line.x_of(shown.t) - 1}px`;
     by_id("step").textContent = `step ${run.step_at(shown.t)} (0 to ${run.num_steps - 1})`;
     if (document.activeElement !== by_id("time")) by_id("time").value = shown.t.toFixed(2);
-    by_id("scrub").value = String(shown.t);
-    by_id("play").setAttribute("aria-pressed", String(this.player.direction === 1));
-    by_id("back").setAttribute("aria-pressed", String(this.player.direction === -1));
+    by_id("scrub").value = shown.t;
+    by_id("play").ariaPressed = player.direction === 1;
+    by_id("back").ariaPressed = player.direction === -1;
     this.keep_address();
   }
 
@@ -85,21 +86,21 @@ class Page {
     }, 500);
   }
 
+  /// With what does not depend on the time.
   draw_static() {
-    this.time_line.draw(this.shown);
-    draw_planning(by_id("planning"), this.time_line, this.shown);
-    fill_legend(by_id("legend"), this.time_line);
-    const of = this.selected === null ? "the slowest car" : `car ${this.selected}`;
+    const { time_line, shown, selected } = this;
+    time_line.draw(shown);
+    time_line.draw_planning(by_id("planning"), shown);
+    time_line.fill_legend(by_id("legend"));
+    const of = selected === null ? "the slowest car" : `car ${selected}`;
     by_id("planning_title").textContent =
       `planning time of ${of} in every step, logarithmic; dashed: the step of ${this.run.step_s} s`;
+    this.show();
   }
 
   listen() {
     listen_to_pointers(by_id("map"), this.map, {
-      on_click: (x, y) => {
-        const vehicle = this.map.car_at(x, y, this.player.t);
-        this.select(vehicle ? vehicle.id : null);
-      },
+      on_click: (x, y) => this.select(this.map.car_at(x, y, this.player.t)?.id),
       on_move: () => this.show(),
     });
     listen_to_scrubbing(by_id("times"), ({ type, target, offsetX, offsetY }) => {
@@ -119,11 +120,12 @@ class Page {
 
   listen_to_inputs() {
     const on = (id, event, action) => by_id(id).addEventListener(event, action);
+    const seek = ({ target }) => this.player.seek(Number(target.value));
     on("theme", "click", () => this.set_theme(root.dataset.theme !== "dark"));
     on("follow", "change", () => this.set_follow(this.follow));
-    on("speed", "change", () => (this.player.speed = Number(by_id("speed").value)));
-    on("scrub", "input", () => this.player.seek(Number(by_id("scrub").value)));
-    on("time", "change", () => this.player.seek(Number(by_id("time").value)));
+    on("speed", "change", ({ target }) => (this.player.speed = Number(target.value)));
+    on("scrub", "input", seek);
+    on("time", "change", seek);
     on("layers", "change", () => this.show());
     const keys = {};
     for (const [key, action, button] of this.actions()) {
@@ -157,7 +159,7 @@ class Page {
 
   select_next(change) {
     const { vehicles } = this.run;
-    const now = vehicles.findIndex((vehicle) => vehicle.id === this.selected);
+    const now = vehicles.findIndex(({ id }) => id === this.selected);
     const next = now < 0 && change < 0 ? -1 : now + change;
     this.select(vehicles.at(next % vehicles.length).id);
   }
@@ -183,28 +185,36 @@ class Page {
 
   set_theme(is_dark) {
     root.dataset.theme = is_dark ? "dark" : "light";
-    this.map.colours = read_colours();
-    this.time_line.colours = this.map.colours;
     this.draw_static();
-    this.show();
   }
 
   /// A link to a moment: run.html#t=7.4&car=2, also step=37 and theme=dark.
   read_address() {
-    const given = new URLSearchParams(location.hash.slice(1));
-    if (given.has("theme")) this.set_theme(given.get("theme") === "dark");
-    if (given.has("car")) this.select(Number(given.get("car")));
-    if (given.has("follow")) this.set_follow(given.get("follow") !== "0");
-    if (given.has("step")) this.player.seek(Number(given.get("step")) * this.run.step_s);
-    if (given.has("t")) this.player.seek(Number(given.get("t")));
+    const { theme, car, follow, step, t } =
+      Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
+    if (theme) this.set_theme(theme === "dark");
+    if (car) this.select(Number(car));
+    if (follow) this.set_follow(follow !== "0");
+    if (step) this.player.seek(Number(step) * this.run.step_s);
+    if (t) this.player.seek(Number(t));
   }
+}
+
+export function report(text) {
+  by_id("fault").textContent = text;
+}
+
+/// @throws error
+export function refuse_run(error) {
+  report(`This run cannot be shown: ${error.message}`);
+  throw error;
 }
 
 export function show_run(run) {
   root.dataset.theme = kDark.matches ? "dark" : "light";
   document.title = by_id("title").textContent = `Run of ${run.about.scenario}`;
   by_id("about").textContent = run_words(run.about);
-  by_id("fault").textContent = fault_words(run.about);
+  report(fault_words(run.about));
   return (window.page = new Page(run));
 }
 
@@ -215,8 +225,7 @@ function start() {
     show_run(run);
     if (run.num_steps === 0) by_id("fault").textContent += " No step was reported.";
   } catch (error) {
-    by_id("fault").textContent = `This run cannot be shown: ${error.message}`;
-    throw error;
+    refuse_run(error);
   }
 }
 

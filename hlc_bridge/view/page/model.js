@@ -2,6 +2,12 @@
 // Run.take(), as messages that hlc_bridge/view/page_messages.hpp specifies.
 
 const kFormat = 1;
+const kNumColours = 8; // of the style sheet, for cars
+const kNamedColours = { red: 0, blue: 1, green: 2 };
+
+export function clamp(value, least, most) {
+  return Math.max(least, Math.min(most, value));
+}
 
 /// The values of a column, which holds the first one and then the differences.
 function sums(deltas, unit) {
@@ -16,7 +22,7 @@ function line_of(deltas, unit) {
 }
 
 /// The pose b, given in the frame a, in a's own frame of reference.
-export function compose(a, b) {
+function compose(a, b) {
   const c = Math.cos(a.yaw);
   const s = Math.sin(a.yaw);
   return { x: a.x + c * b.x - s * b.y, y: a.y + s * b.x + c * b.y, yaw: a.yaw + b.yaw };
@@ -69,10 +75,11 @@ export class Run {
     this.unit = message.unit_m;
     this.step_s = message.step_s;
     this.lanes = message.lanes.map((bounds) => bounds.map((bound) => line_of(bound, this.unit)));
-    this.vehicles = message.vehicles.map((vehicle) => ({
+    this.vehicles = message.vehicles.map((vehicle, i) => ({
       ...vehicle,
+      colour: kNamedColours[vehicle.name] ?? i % kNumColours,
       route: line_of(vehicle.route, this.unit),
-      steps: [], // report of step k at [k]; none where the car did not report
+      steps: [], // report of step k at [k], if any; without a label: no plan
       drives: [], // stretches without a gap
     }));
   }
@@ -95,7 +102,11 @@ export class Run {
       status: about.statuses,
       reason: about.reasons,
       quality: about.qualities,
-      ...{ label: names, subgraph: names, coupled: sets, missing: sets, waits_for: sets },
+      label: names,
+      subgraph: names,
+      coupled: sets,
+      missing: sets,
+      waits_for: sets,
       blocked_by: sets,
     };
     const [x, y] = [sums(message.x, unit), sums(message.y, unit)];
@@ -112,13 +123,13 @@ export class Run {
   }
 
   take_drive(message) {
+    const [x, y] = [sums(message.x, this.unit), sums(message.y, this.unit)];
+    const yaw = sums(message.yaw, this.about.unit_rad);
+    const speed = sums(message.speed, 1e-3);
     this.vehicle(message.vehicle).drives.push({
       begin_s: message.begin_ms * 1e-3,
       tick_s: message.tick_ms * 1e-3,
-      x: sums(message.x, this.unit),
-      y: sums(message.y, this.unit),
-      yaw: sums(message.yaw, this.about.unit_rad),
-      speed: sums(message.speed, 1e-3),
+      states: x.map((_, i) => ({ x: x[i], y: y[i], yaw: yaw[i], speed: speed[i] })),
     });
   }
 
@@ -131,7 +142,7 @@ export class Run {
   }
 
   step_at(t) {
-    return Math.max(0, Math.min(this.num_steps - 1, Math.floor(t / this.step_s + 1e-6)));
+    return clamp(Math.floor(t / this.step_s + 1e-6), 0, this.num_steps - 1);
   }
 
   report_at(vehicle, t) {
@@ -140,28 +151,24 @@ export class Run {
 
   /// Where the car was, with its speed; null: not recorded. A record holds for a tick.
   driven_at(vehicle, t) {
-    for (const drive of vehicle.drives) {
-      const at = (t - drive.begin_s) / drive.tick_s;
-      const last = drive.x.length - 1;
+    for (const { begin_s, tick_s, states } of vehicle.drives) {
+      const at = (t - begin_s) / tick_s;
+      const last = states.length - 1;
       if (at < -1e-6 || at > last + 1 + 1e-6) continue;
-      const i = Math.max(0, Math.min(last, Math.floor(at)));
-      const j = Math.min(last, i + 1);
-      const part = Math.max(0, Math.min(1, at - i));
-      const pose = (n) => ({ x: drive.x[n], y: drive.y[n], yaw: drive.yaw[n] });
-      const speed = drive.speed[i] + part * (drive.speed[j] - drive.speed[i]);
-      return { ...between(pose(i), pose(j), part), speed };
+      const i = clamp(Math.floor(at), 0, last);
+      const part = clamp(at - i, 0, 1);
+      const [a, b] = [states[i], states[Math.min(last, i + 1)]];
+      return { ...between(a, b, part), speed: a.speed + part * (b.speed - a.speed) };
     }
     return null;
   }
 
   driven_path(vehicle, from_s, to_s) {
-    const points = [];
-    for (const drive of vehicle.drives) {
-      const first = Math.max(0, Math.ceil((from_s - drive.begin_s) / drive.tick_s));
-      const last = Math.min(drive.x.length - 1, Math.floor((to_s - drive.begin_s) / drive.tick_s));
-      for (let i = first; i <= last; ++i) points.push([drive.x[i], drive.y[i]]);
-    }
-    return points;
+    return vehicle.drives.flatMap(({ begin_s, tick_s, states }) => {
+      const first = Math.max(0, Math.ceil((from_s - begin_s) / tick_s));
+      const end = Math.max(0, Math.floor((to_s - begin_s) / tick_s) + 1);
+      return states.slice(first, end).map(({ x, y }) => [x, y]);
+    });
   }
 
   /// Frame of the maneuver under way in step k: it ends where the plan is at the next step. null
@@ -169,7 +176,7 @@ export class Run {
   frame_of_maneuver(vehicle, k) {
     const report = vehicle.steps[k];
     const next = vehicle.steps[k + 1];
-    const maneuver = report && this.maneuvers[report.maneuver];
+    const maneuver = this.maneuvers[report?.maneuver];
     if (!maneuver || !next) return null;
     const frame = compose(next.pose, inverse(maneuver.path.at(-1)));
     const apart_m = Math.hypot(frame.x - report.pose.x, frame.y - report.pose.y);
@@ -180,12 +187,12 @@ export class Run {
   planned_at(vehicle, t) {
     const k = this.step_at(t);
     const report = vehicle.steps[k];
-    if (!report || report.label === "") return null;
-    const part = Math.max(0, Math.min(1, t / this.step_s - k));
+    if (!report?.label) return null;
+    const part = clamp(t / this.step_s - k, 0, 1);
     const motion = this.frame_of_maneuver(vehicle, k);
     if (part < 1e-6) return report.pose;
     if (motion) {
-      const path = motion.maneuver.path;
+      const { path } = motion.maneuver;
       const at = part * (path.length - 1);
       const i = Math.min(path.length - 2, Math.floor(at));
       return compose(motion.frame, between(path[i], path[i + 1], at - i));
@@ -198,7 +205,7 @@ export class Run {
   planned_path(vehicle, from, to) {
     const points = [];
     for (let k = from; k < to; ++k) {
-      if (!vehicle.steps[k] || vehicle.steps[k].label === "") continue;
+      if (!vehicle.steps[k]?.label) continue;
       const motion = this.frame_of_maneuver(vehicle, k);
       const poses = motion
         ? motion.maneuver.path.map((pose) => compose(motion.frame, pose))
@@ -219,17 +226,17 @@ export class Run {
   box() {
     const min = [Infinity, Infinity];
     const max = [-Infinity, -Infinity];
-    const add = ([x, y]) => {
-      min[0] = Math.min(min[0], x);
-      min[1] = Math.min(min[1], y);
-      max[0] = Math.max(max[0], x);
-      max[1] = Math.max(max[1], y);
+    const add = (point) => {
+      for (const i of [0, 1]) {
+        min[i] = Math.min(min[i], point[i]);
+        max[i] = Math.max(max[i], point[i]);
+      }
     };
     for (const bound of this.lanes.flat()) bound.forEach(add);
     for (const vehicle of this.vehicles) {
       vehicle.route.forEach(add);
-      for (const drive of vehicle.drives) drive.x.forEach((x, i) => add([x, drive.y[i]]));
-      vehicle.steps.forEach(({ label, pose }) => label !== "" && add([pose.x, pose.y]));
+      this.driven_path(vehicle, 0, Infinity).forEach(add);
+      vehicle.steps.forEach(({ label, pose }) => label && add([pose.x, pose.y]));
     }
     return min[0] <= max[0] ? { min, max } : { min: [0, 0], max: [4.5, 4] };
   }

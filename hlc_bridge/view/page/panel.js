@@ -1,7 +1,7 @@
 // The text beside the map: cars, report, log. Text of the run is never markup: tags show as they are.
 
-import { colour_index } from "./draw.js";
-import { kTerms, planning_words, report_rows, seconds, state_of } from "./words.js";
+import { clamp } from "./model.js";
+import { kTerms, milliseconds, report_rows, seconds, state_of } from "./words.js";
 
 export function element(tag, text = "", attributes = {}) {
   const made = document.createElement(tag);
@@ -15,10 +15,9 @@ function set_text(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }
 
-function badge(run, vehicle) {
-  const index = colour_index(run, vehicle);
-  const style = `background: var(--car-${index}); color: var(--ink-${index})`;
-  return element("span", vehicle.id, { class: "badge", style });
+function badge({ id, colour }) {
+  const style = `background: var(--car-${colour}); color: var(--ink-${colour})`;
+  return element("span", id, { class: "badge", style });
 }
 
 /// @param select  called with the id of a clicked car
@@ -29,7 +28,7 @@ export class CarList {
     this.rows = run.vehicles.map((vehicle) => {
       const row = element("tr", "", { tabindex: "0", id: `car_${vehicle.id}` });
       const cells = ["", vehicle.name, "", ""].map((text) => element("td", text));
-      cells[0].append(badge(run, vehicle));
+      cells[0].append(badge(vehicle));
       row.append(...cells);
       row.addEventListener("click", () => select(vehicle.id));
       row.addEventListener("keydown", ({ key }) => key === "Enter" && select(vehicle.id));
@@ -46,9 +45,9 @@ export class CarList {
       const { kind, words } = state_of(this.run, vehicle, t);
       const report = this.run.report_at(vehicle, t);
       set_text(state, words);
-      set_text(planning, report ? planning_words(this.run, report).split(",")[0] : "");
+      set_text(planning, report ? milliseconds(report.planning_s) : "");
       if (row.dataset.kind !== kind) row.dataset.kind = kind;
-      row.classList.toggle("late", Boolean(report && report.is_late));
+      row.classList.toggle("late", Boolean(report?.is_late));
       row.classList.toggle("selected", vehicle.id === selected);
     }
   }
@@ -57,7 +56,7 @@ export class CarList {
   scroll_to({ offsetTop, offsetHeight }) {
     const { list } = this;
     const least = offsetTop + offsetHeight - list.clientHeight;
-    list.scrollTop = Math.max(least, Math.min(list.scrollTop, offsetTop));
+    list.scrollTop = clamp(list.scrollTop, least, offsetTop);
   }
 }
 
@@ -67,10 +66,9 @@ export class Report {
   }
 
   show({ t, selected }) {
-    const vehicle = selected === null ? undefined : this.run.vehicle(selected);
+    const vehicle = this.run.vehicle(selected);
     const rows = vehicle ? report_rows(this.run, vehicle, t) : [];
-    const k = this.run.step_at(t);
-    const title = vehicle && `Car ${vehicle.id} (${vehicle.name}) in step ${k}`;
+    const title = vehicle && `Car ${vehicle.id} (${vehicle.name}) in step ${this.run.step_at(t)}`;
     set_text(this.title, title || "Click on a car to see its report.");
     const now = JSON.stringify([selected, rows]);
     if (now === this.shown) return;
@@ -90,7 +88,7 @@ export class Report {
     const vehicle = this.run.vehicle(id);
     if (!vehicle) return element("span", `car ${id} `);
     const button = element("button", "", { class: "car" });
-    button.append(badge(this.run, vehicle), ` car ${id}`);
+    button.append(badge(vehicle), ` car ${id}`);
     button.addEventListener("click", () => this.select(id));
     return button;
   }
@@ -100,12 +98,11 @@ export class Report {
 export class Log {
   constructor(list, run, seek) {
     this.list = list;
-    this.lines = run.log.map((line) => {
-      const { process, level, text, run_s } = line;
+    this.lines = run.log.map(({ process, stamp, level, text, run_s }) => {
       const row = element("li", "", { class: level });
-      const stamp = run_s === null ? line.stamp.slice(11) : seconds(run_s);
-      row.append(element("time", stamp), element("b", process), element("span", text));
-      if (level !== "info" && level !== "") row.append(element("em", level));
+      const time = run_s === null ? stamp.slice(11) : seconds(run_s);
+      row.append(element("time", time), element("b", process), element("span", text));
+      if (!["", "info"].includes(level)) row.append(element("em", level));
       if (run_s !== null) row.addEventListener("click", () => seek(run_s));
       list.append(row);
       return { row, run_s };

@@ -1,6 +1,6 @@
 // The state of a car in words.
 
-export function ids_text(ids) {
+function ids_text(ids) {
   return ids.length === 1 ? `car ${ids[0]}` : `cars ${ids.join(", ")}`;
 }
 
@@ -87,11 +87,6 @@ export const kTerms = {
   level: "0 plans first, the others wait for the plans of lower levels",
 };
 
-/// The kind of a whole step, for the time line.
-export function kind_in(run, vehicle, k) {
-  return state_of(run, vehicle, (k + 0.5) * run.step_s).kind;
-}
-
 const kQualities = {
   none: "no plan was found",
   optimal: "optimal",
@@ -99,11 +94,11 @@ const kQualities = {
   unproven: "not proven optimal",
 };
 
-function milliseconds(value_s) {
+export function milliseconds(value_s) {
   return `${(value_s * 1e3).toFixed(2)} ms`;
 }
 
-export function planning_words(run, report) {
+function planning_words(run, report) {
   const late = report.is_late ? `, answer late by ${milliseconds(report.late_s)}` : "";
   const share = (100 * report.planning_s) / run.step_s;
   const percent = share.toFixed(share < 1 ? 2 : 0);

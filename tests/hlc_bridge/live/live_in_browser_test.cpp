@@ -13,13 +13,17 @@
 namespace hlc::live {
 namespace {
 
+using testing::HasSubstr;
+using testing::StartsWith;
+
 constexpr std::uint8_t kCars = 3;
+constexpr std::size_t kSteps = 120;  // until a car is stuck
 
 /// A run of three cars that the test lets go on.
 class SlowRun {
  public:
   explicit SlowRun(const std::string& scenario = "sample")
-      : run_(view::sample_run(kCars, 100)), messages_(begin_of(run_, scenario)) {}
+      : run_(view::sample_run(kCars, kSteps)), messages_(begin_of(run_, scenario)) {}
 
   /// Portions with the next steps.
   [[nodiscard]] std::vector<std::string> go_on(std::size_t steps) {
@@ -44,6 +48,7 @@ class SlowRun {
  private:
   static view::FinishedRun begin_of(view::FinishedRun run, const std::string& scenario) {
     run.description.scenario = scenario;
+    run.description.has_two_rounds = true;
     run.rows.clear();
     run.drives.clear();
     run.facts.first_step = {};
@@ -106,6 +111,25 @@ TEST_F(LiveInBrowser, WhoGoesBackStaysThereUntilLiveIsPressed) {
   EXPECT_TRUE(browser_->becomes_true("Math.abs(page.player.t - 3.6) < 0.01"));
 }
 
+TEST_F(LiveInBrowser, WhyACarKeepsItsPlanOrWaitsIsNamedAsInAFinishedRun) {
+  SlowRun run;
+  RunningServer server;
+  append(run.go_on(kSteps), server);
+  browser_->open(url_of(server));
+  ASSERT_TRUE(browser_->becomes_true("window.page && page.run.num_steps > 110"));
+  const auto state_at = [this](const std::string& t) {
+    return browser_
+        ->value_of("page.player.seek(" + t +
+                   "), page.draw(), document.getElementById('car_2').cells[2].textContent")
+        .get<std::string>();
+  };
+  EXPECT_THAT(state_at("1.7"), StartsWith("keeps its plan: conflict with car 3"));
+  EXPECT_THAT(state_at("2.5"), StartsWith("waits for car 1 since 1.0 s"));
+  EXPECT_THAT(state_at("21.1"), StartsWith("stuck: waits for car 1 since 1.0 s"));
+  EXPECT_THAT(browser_->value_of("document.getElementById('about').textContent").get<std::string>(),
+              HasSubstr("two rounds of messages"));
+}
+
 TEST_F(LiveInBrowser, ABrokenConnectionIsNamedAndNothingIsLostOrTwiceThere) {
   SlowRun run;
   const std::vector<std::string> first = run.go_on(10);
@@ -123,7 +147,8 @@ TEST_F(LiveInBrowser, ABrokenConnectionIsNamedAndNothingIsLostOrTwiceThere) {
   append(then, *server);
   ASSERT_TRUE(browser_->becomes_true("page.run.num_steps === 19"));
   EXPECT_EQ(browser_->value_of("document.getElementById('fault').textContent"), "");
-  EXPECT_EQ(browser_->value_of("page.run.vehicles.map((car) => car.drives.map(({x}) => x.length))"),
+  EXPECT_EQ(browser_->value_of(
+                "page.run.vehicles.map((car) => car.drives.map(({states}) => states.length))"),
             nlohmann::json::parse("[[200], [200], [200]]"));
   EXPECT_EQ(browser_->value_of("page.run.maneuvers.length"), 2);
 }

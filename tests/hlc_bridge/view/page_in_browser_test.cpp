@@ -380,6 +380,17 @@ TEST_F(PageInBrowser, ACarWithoutARecordIsNotShownAsStanding) {
   EXPECT_THAT(result.at("legend"), HasSubstr("no driven path recorded"));
 }
 
+TEST_F(PageInBrowser, TheDrivenPathEndsAtTheMomentShownEvenBeforeAGap) {
+  FinishedRun run = sample_run(1, 20);
+  result::Drive& drive = run.drives.at(1);
+  drive.erase(drive.begin() + 75, drive.begin() + 100);  // from 1.5 s to 2 s, at states every 20 ms
+  const json result = result_of(run, R"(
+    const [car] = page.run.vehicles;
+    result.num_points = [1, 1.7, 2.1].map((t) => page.run.driven_path(car, 0.5, t).length);
+  )");
+  EXPECT_EQ(result.at("num_points"), json({26, 50, 56}));
+}
+
 TEST_F(PageInBrowser, ACarThatWaitsForLongIsStuck) {
   const json result = result_of(sample_run(3, 120), R"(
     page.select(2);

@@ -16,8 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr std::size_t kMostOfPage = 60'000;  ///< bytes of the files of run.html
-constexpr std::size_t kMostOfLive = 3'000;   ///< and of what a run under way needs beside them
+constexpr std::size_t kMostOfPage = 60'000;  ///< bytes of all files of the page
 constexpr std::size_t kMegabyte = 1'000'000;
 
 /// The text of the element with the data.
@@ -89,7 +88,7 @@ TEST(RunPage, ARunWithoutStepsHasAPage) {
 TEST(PageFiles, OfThePageAreSmallAndStandInItAsTheyAre) {
   std::size_t size = 0;
   for (const auto& [name, text] : page_files()) {
-    if (name != "live.js") size += text.size();
+    size += text.size();
     EXPECT_FALSE(text.empty()) << name;
     EXPECT_LE(split(text, '\n').size(), 400U) << name;
     if (name.ends_with(".js")) {
@@ -102,7 +101,6 @@ TEST(PageFiles, OfThePageAreSmallAndStandInItAsTheyAre) {
     EXPECT_THAT(text, Not(HasSubstr("http"))) << name;
   }
   EXPECT_LE(size, kMostOfPage);
-  EXPECT_LE(page_files().at("live.js").size(), kMostOfLive);
 }
 
 }  // namespace
