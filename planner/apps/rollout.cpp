@@ -24,7 +24,7 @@ constexpr int kExitFailed = 2;
 
 struct Choices {
   hlc::scenario::ScenarioChoices scenario;
-  double lost{};                                                      ///< share of the messages
+  double lost{};                                                    ///< share of the messages
   std::size_t lost_steps{std::numeric_limits<std::size_t>::max()};  ///< none is lost later
   std::uint64_t loss_seed{1};
 };

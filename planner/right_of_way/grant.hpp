@@ -55,7 +55,7 @@ struct Missing {
 ///
 /// So no two vehicles hold overlapping cells, whatever is lost. By induction, let none do as the
 /// step begins.
-/// * Those that have received all take what `grant` gives: the same for all of them, without overlap.
+/// * Those that have received all take the result of `grant`, the same for all and without overlap.
 /// * A vehicle takes only cells that nobody holds as the step begins, up to its look-ahead. For one
 ///   that was received this is assumed here in full, so it contains what `grant` gives to it.
 /// * A missing one has driven `moved_m` at most. What it has taken since then was free when it took

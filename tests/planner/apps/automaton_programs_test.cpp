@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "planner/maneuver_design/automaton_builder.hpp"
+#include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -268,9 +269,8 @@ TEST_F(AutomatonPrograms, AScenarioDrivesWithABuiltFileAsWithItsConfiguration) {
 
 TEST(Rollout, LosesTheStatedShareOfMessagesForTheStatedTime) {
   const auto drive = [](const std::string& flags) {
-    const Outcome outcome =
-        run_program("rollout --steps 40 --scenario " + test::source_folder() +
-                    "/launch_scripts/scenarios/paper_three_cars.yaml " + flags);
+    const Outcome outcome = run_program("rollout --steps 40 --scenario " + test::source_folder() +
+                                        "/launch_scripts/scenarios/paper_three_cars.yaml " + flags);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     return outcome.output.substr(0, outcome.output.rfind("40 steps in"));
   };
