@@ -49,27 +49,4 @@ std::optional<Nanoseconds> standing_since(const result::Drive& drive, Nanosecond
   return since;
 }
 
-result::Encounters driven_encounters(const std::vector<result::VehicleDescription>& vehicles,
-                                     const result::Drives& drives,
-                                     const std::set<std::uint8_t>& ended) {
-  const auto end_of = [&](const result::VehicleDescription& vehicle) {
-    const auto drive = drives.find(vehicle.id.value);
-    const bool ends = ended.contains(vehicle.id.value) && drive != drives.end();
-    return ends && !drive->second.empty() ? drive->second.back().t : kForever;
-  };
-  result::Encounters all;
-  for (std::size_t i = 0; i < vehicles.size(); ++i) {
-    for (std::size_t j = i + 1; j < vehicles.size(); ++j) {
-      const std::vector<result::VehicleDescription> pair{vehicles[i], vehicles[j]};
-      const Nanoseconds to = std::min(end_of(pair.front()), end_of(pair.back()));
-      const result::Encounters of_pair = result::encounters(pair, drives, 0, to);
-      all.collisions += of_pair.collisions;
-      if (!of_pair.min_distance_m) continue;
-      all.min_distance_m =
-          std::min(all.min_distance_m.value_or(*of_pair.min_distance_m), *of_pair.min_distance_m);
-    }
-  }
-  return all;
-}
-
 }  // namespace hlc::test

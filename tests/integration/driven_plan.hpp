@@ -1,10 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <vector>
 
-#include "hlc_bridge/result/encounters.hpp"
 #include "hlc_bridge/result/run_record.hpp"
 #include "tests/integration/recorded_commands.hpp"
 
@@ -28,13 +26,5 @@ inline constexpr Nanoseconds kForever = ~Nanoseconds{0};
 /// Time since which the vehicle stands until `to`, or the end of its record: slower than counts as
 /// standing (MissingVehicleRules). Nothing if it does not stand then.
 [[nodiscard]] std::optional<Nanoseconds> standing_since(const result::Drive& drive, Nanoseconds to);
-
-/// How close all driven footprints came to each other. A vehicle whose record has ended stands
-/// where it was seen last and can still be hit: but not those of `ended`, whose own processes died,
-/// so that the simulated cars stopped instantly, which no plan predicts. They count as long
-/// as their records last.
-[[nodiscard]] result::Encounters driven_encounters(
-    const std::vector<result::VehicleDescription>& vehicles, const result::Drives& drives,
-    const std::set<std::uint8_t>& ended = {});
 
 }  // namespace hlc::test

@@ -80,22 +80,6 @@ TEST(DrivenPlan, StandingCountsFromTheLastTimeThatTheVehicleMoved) {
   EXPECT_EQ(standing_since(driven, kForever), 2 * kSecond + kTick);
 }
 
-TEST(DrivenPlan, AVehicleWhoseProcessDiedIsNoObstacleAfterwardsAndAnyOtherIs) {
-  result::VehicleDescription one{.id = {1}, .footprint = {0.2, 0.1}};
-  result::VehicleDescription two{.id = {2}, .footprint = {0.2, 0.1}};
-  result::Drives drives;
-  drives[1] = drive(2.0, 7);
-  for (result::DrivenSample sample :
-       drive(2.0, 7, kSecond)) {  // ahead by 0.5 m, ends at 1 s at 1.5 m
-    sample.pose.x_m += 0.5;
-    drives[2].push_back(sample);
-  }
-  EXPECT_EQ(driven_encounters({one, two}, drives).collisions, 1U);
-  const result::Encounters close = driven_encounters({one, two}, drives, {2});
-  EXPECT_EQ(close.collisions, 0U);
-  EXPECT_NEAR(close.min_distance_m.value(), 0.3, 1e-9);
-}
-
 TEST(RecordedCommands, AreReadAsTheyWereWrittenWithoutAnUnfinishedLastLine) {
   const TemporaryFolder folder;
   const TrajectoryCommand first = straight(1.5, 7);

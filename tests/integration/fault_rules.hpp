@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 
 #include "hlc_bridge/messages/messages.hpp"
+#include "hlc_bridge/result/encounters.hpp"
 #include "hlc_bridge/result/run_description.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/integration/driven_plan.hpp"
@@ -44,10 +44,9 @@ inline void expect_stands_in_time(const result::Drive& drive, std::uint8_t vehic
 }
 
 /// No driven footprints touch, of cars that have all been seen.
-/// @param run    with scenario() and drives()
-/// @param ended  see driven_encounters
+/// @param run  with scenario() and drives()
 template <class Run>
-void expect_nobody_was_touched(const Run& run, const std::set<std::uint8_t>& ended = {}) {
+void expect_nobody_was_touched(const Run& run) {
   const auto vehicles = result::describe(run.scenario(), std::nullopt).vehicles;
   const result::Drives drives = run.drives();
   for (const result::VehicleDescription& vehicle : vehicles) {
@@ -55,7 +54,7 @@ void expect_nobody_was_touched(const Run& run, const std::set<std::uint8_t>& end
     ASSERT_TRUE(drive != drives.end() && !drive->second.empty())
         << "vehicle " << int{vehicle.id.value} << " has no record";
   }
-  const result::Encounters close = driven_encounters(vehicles, drives, ended);
+  const result::Encounters close = result::encounters(vehicles, drives, 0, kForever);
   ASSERT_TRUE(close.min_distance_m) << "no two vehicles were seen at one time";
   EXPECT_EQ(close.collisions, 0U);
 }

@@ -11,6 +11,7 @@
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "hlc_bridge/record/report_file.hpp"
+#include "hlc_bridge/result/encounters.hpp"
 #include "hlc_bridge/result/run_description.hpp"
 #include "hlc_bridge/result/run_summary.hpp"
 #include "tests/integration/driven_plan.hpp"
@@ -66,9 +67,9 @@ const char* scenario_on(const std::string& transport) {
 }
 
 void check_driving(const scenario::Scenario& scenario, const result::Drives& drives,
-                   const std::set<std::uint8_t>& dead, SoakResult& result) {
+                   SoakResult& result) {
   const result::Encounters close =
-      driven_encounters(result::describe(scenario, std::nullopt).vehicles, drives, dead);
+      result::encounters(result::describe(scenario, std::nullopt).vehicles, drives, 0, kForever);
   result.collisions = close.collisions;
   result.min_distance_m = close.min_distance_m;
   if (drives.size() != kVehicles) result.problems.emplace_back("a vehicle left no record");
@@ -138,8 +139,6 @@ class Striker {
   }
 
   [[nodiscard]] bool has_killed(const std::string& name) const { return killed_.contains(name); }
-  /// Vehicles whose own processes were killed.
-  [[nodiscard]] const std::set<std::uint8_t>& dead() const { return dead_; }
 
  private:
   void strike(const PlannedFault& fault, const std::string& name) {
@@ -147,16 +146,12 @@ class Striker {
         fault.kind == FaultKind::kStopController || fault.kind == FaultKind::kStopMiddleware;
     if (is_stop) ++stops_[name];
     if (!is_stop) killed_.insert(name);
-    if (fault.kind == FaultKind::kKillVehicle) {
-      dead_.insert(static_cast<std::uint8_t>(fault.vehicle));
-    }
     lab_[name].send(is_stop ? SIGSTOP : SIGKILL);
     ++result_.faults_done;
   }
 
   LabProcesses& lab_;
   SoakResult& result_;
-  std::set<std::uint8_t> dead_;
   std::set<std::string> killed_;
   std::map<std::string, int> stops_;  // that have not ended
 };
@@ -184,7 +179,7 @@ void run_on_one_machine(const FaultPlan& plan, const std::string& transport, boo
   }
   check_end(lab, result);
   if (!striker.has_killed("lab_control")) result.lab_control = lab["lab_control"].wait_for(0ms);
-  check_driving(lab.scenario(), lab.drives(), striker.dead(), result);
+  check_driving(lab.scenario(), lab.drives(), result);
   if (keep && !result.problems.empty()) lab.keep_folder();
 }
 
@@ -210,7 +205,7 @@ void run_over_network(const FaultPlan& plan, bool keep, SoakResult& result) {
   }
   check_end(lab, result);
   result.lab_control = lab["lab_control"].wait_for(0ms);
-  check_driving(lab.scenario(), lab.drives(), {}, result);
+  check_driving(lab.scenario(), lab.drives(), result);
   if (keep && !result.problems.empty()) lab.keep_folder();
 }
 
@@ -265,7 +260,7 @@ SoakResult run_undisturbed(int steps, const std::string& transport, bool keep) {
                                 std::to_string(result.lab_control.value_or(-1)));
     }
     const result::Drives drives = lab.drives();
-    check_driving(lab.scenario(), drives, {}, result);
+    check_driving(lab.scenario(), drives, result);
     const result::RunFacts facts = record::read_facts(lab.folder() / "run.json");
     const std::vector<ReportRecord> reports = record::read_reports(lab.folder() / "reports.csv");
     const result::RunSummary summary =
