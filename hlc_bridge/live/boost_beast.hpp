@@ -2,6 +2,9 @@
 
 // The one entry to Boost.Asio and Boost.Beast.
 
+// A context runs on one thread, and the thread sanitizer does not know fences.
+#define BOOST_ASIO_DISABLE_FENCED_BLOCK
+
 #include <utility>  // first: the headers of Boost.Asio 1.74 use std::exchange without it
 
 #include <boost/asio/buffer.hpp>

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <stdexcept>
@@ -50,7 +51,11 @@ class HttpClient {
   /// Everything up to this text, with it; up to the server's end if it does not come.
   [[nodiscard]] std::string read_until(const std::string& end) {
     std::size_t found = received_.find(end);
-    while (found == std::string::npos && receive()) found = received_.find(end);
+    while (found == std::string::npos) {
+      const std::size_t searched = received_.size() - std::min(received_.size(), end.size());
+      if (!receive()) break;
+      found = received_.find(end, searched);
+    }
     if (found == std::string::npos) return std::exchange(received_, {});
     std::string text = received_.substr(0, found + end.size());
     received_.erase(0, text.size());
