@@ -141,7 +141,7 @@ class View {
     const hlc::live::LabListener::Received received = listener_.take();
     for (const hlc::ReportRecord& record : received.reports) messages_.take(record);
     for (const hlc::VehicleState& state : received.states) messages_.take(state);
-    if (listener_.run_is_over()) ++ticks_after_run_;
+    ticks_after_run_ = listener_.run_is_over() ? ticks_after_run_ + 1 : 0;
     if (stop_ || ticks_after_run_ > kLastTicks) return end("The run has ended.");
     if (history_.num_bytes() > kMostHistoryBytes) {
       spdlog::warn("the run is longer than the {} MB kept for browsers: they get no more of it",

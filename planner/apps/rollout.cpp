@@ -97,7 +97,8 @@ void print_all(const std::map<hlc::VehicleId, Tally>& tallies, std::size_t steps
   }
   const auto car_steps = static_cast<double>(steps * tallies.size());
   std::printf("all: %.3f m/s, new plans in %.1f %% of the steps, longest wait %.1f s\n",
-              driven_m / (step_s * car_steps), 100.0 * planned / car_steps, longest_wait_s);
+              driven_m / (step_s * (car_steps - static_cast<double>(tallies.size()))),
+              100.0 * planned / car_steps, longest_wait_s);
 }
 
 void lose_messages(hlc::rollout::Rollout& rollout, const Choices& choices) {

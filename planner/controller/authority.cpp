@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "planner/geometry/footprint.hpp"
@@ -50,10 +51,15 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
             .place_m = place_m,
             .ahead_m = std::max({gives_back ? 0.0 : held_m, plans_m, 0.0}),
             .waiting_steps = stands && !gives_back ? claim_.waiting_steps + 1 : 0};
+  now_ = now;
   has_place_ = true;
   granted_.clear();
   holders_.clear();
   is_limited_ = false;
+}
+
+void Authority::receive(std::span<const coordination::Traffic* const> others) {
+  for (const coordination::Traffic* other : others) known_[other->vehicle] = {*other->claim, now_};
 }
 
 void Authority::extend(VehicleId own, std::span<const coordination::Traffic* const> others,
@@ -63,22 +69,23 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
   std::vector<right_of_way::Holder> received{{own, claim_}};
   for (const coordination::Traffic* other : others) {
     received.push_back({other->vehicle, *other->claim});
-    known_[other->vehicle] = {.last = received.back()};
   }
   std::vector<right_of_way::Missing> assumed;
   granted_ = received;
   for (const VehicleId other : missing) {
-    right_of_way::Missing& one = known_.at(other);
-    one.moved_m += step_m;
-    assumed.push_back(one);
-    granted_.push_back(one.last);
+    const Known& known = known_.at(other);
+    assumed.push_back({.last = {other, known.claim},
+                       .moved_m = step_m * static_cast<double>(now_.value - known.step.value)});
+    granted_.push_back(assumed.back().last);
   }
   std::ranges::sort(granted_, {}, &right_of_way::Holder::vehicle);  // as every other vehicle does
   const std::vector<double>& ahead_m = shared.granted(*map_, granted_, blocked, kLookAhead_m);
   for (std::size_t i = 0; i < granted_.size(); ++i) granted_[i].claim.ahead_m = ahead_m[i];
-  holders_ = assumed.empty() ? granted_
-                             : right_of_way::cautious_grant(*map_, received, assumed, blocked,
-                                                            kLookAhead_m, own);
+  std::optional<std::vector<right_of_way::Holder>> cautious;
+  if (!assumed.empty()) {
+    cautious = right_of_way::cautious_grant(*map_, received, assumed, blocked, kLookAhead_m, own);
+  }
+  holders_ = cautious ? *std::move(cautious) : granted_;
   own_place_ = static_cast<std::size_t>(
       std::ranges::find(holders_, own, &right_of_way::Holder::vehicle) - holders_.begin());
   claim_.ahead_m = holders_[own_place_].claim.ahead_m;

@@ -42,12 +42,17 @@ class Authority {
   /// For this step's traffic. @pre begin_step
   [[nodiscard]] const coordination::LaneClaim& claim() const { return claim_; }
 
+  /// Keeps what others claim in this step, for steps in which one of them is missing.
+  /// @pre begin_step
+  /// @param others  of which a claim on the same map has been received in this step
+  void receive(std::span<const coordination::Traffic* const> others);
+
   /// Whether a claim of the vehicle has ever been received.
   [[nodiscard]] bool knows(VehicleId vehicle) const { return known_.contains(vehicle); }
 
-  /// Takes what is granted to this vehicle, given what all others hold; if some are missing, only
-  /// what nobody else can take (right_of_way::cautious_grant).
-  /// @param others     of which a claim on the same map has been received in this step
+  /// Takes what is granted to this vehicle, given what all others hold; where one is missing that
+  /// may take the same, only what nobody else can take (right_of_way::cautious_grant).
+  /// @param others     as for `receive`, in the same step
   /// @param missing    known vehicles that were not received in this step
   /// @param blocked    areas of others that hold nothing, those of one vehicle together
   /// @param step_m     the longest way of a vehicle in a step
@@ -69,16 +74,23 @@ class Authority {
   [[nodiscard]] ConvexPolygon bar_m(const RouteTracker& tracker, const Footprint& footprint) const;
 
  private:
+  /// Another vehicle, as last received.
+  struct Known {
+    coordination::LaneClaim claim;
+    StepIndex step;
+  };
+
   std::shared_ptr<const right_of_way::ConflictMap> map_;
   coordination::LaneClaim claim_;
+  StepIndex now_;
   /// After `extend`: what all hold at the end of the step by `grant`; what limits this vehicle,
   /// itself included.
   std::vector<right_of_way::Holder> granted_;
   std::vector<right_of_way::Holder> holders_;
   std::vector<right_of_way::Blocked> blocked_;
   std::size_t own_place_{};
-  bool is_limited_{};                                 ///< the end limits planning
-  std::map<VehicleId, right_of_way::Missing> known_;  ///< each other vehicle, as last received
+  bool is_limited_{};  ///< the end limits planning
+  std::map<VehicleId, Known> known_;
   std::uint32_t unused_steps_{};  ///< for which it has stood with road in front of it
   bool has_place_{};
 };

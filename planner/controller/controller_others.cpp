@@ -49,6 +49,18 @@ void Controller::extend_authority(SharedStep& shared) {
   if (!authority_) return;
   const automaton::UniversalAutomaton& automaton = subgraph().automaton();
   std::vector<right_of_way::Blocked> blocked;
+  std::vector<const coordination::Traffic*> holders;
+  for (const coordination::Traffic* traffic : neighbours_.received()) {
+    if (traffic->claim && traffic->claim->route < options_.conflicts->num_routes()) {
+      holders.push_back(traffic);
+      continue;
+    }
+    for (const ConvexPolygon& area_m : traffic->running.areas_m) {
+      blocked.push_back({traffic->vehicle, area_m});
+    }
+    blocked.push_back({traffic->vehicle, traffic->running.final_area_m});
+  }
+  authority_->receive(holders);
   std::vector<VehicleId> missing;
   for (const VehicleId other : neighbours_.missing()) {
     const coordination::MeasuredVehicle* const measured = step_.observation.measured(other);
@@ -63,17 +75,6 @@ void Controller::extend_authority(SharedStep& shared) {
     } else {
       return;  // it may be anywhere
     }
-  }
-  std::vector<const coordination::Traffic*> holders;
-  for (const coordination::Traffic* traffic : neighbours_.received()) {
-    if (traffic->claim && traffic->claim->route < options_.conflicts->num_routes()) {
-      holders.push_back(traffic);
-      continue;
-    }
-    for (const ConvexPolygon& area_m : traffic->running.areas_m) {
-      blocked.push_back({traffic->vehicle, area_m});
-    }
-    blocked.push_back({traffic->vehicle, traffic->running.final_area_m});
   }
   authority_->extend(options_.vehicle, holders, missing, blocked,
                      neighbours_.rules().max_speed_mps * automaton.step_s, shared);

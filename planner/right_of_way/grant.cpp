@@ -55,16 +55,9 @@ class Grants {
   [[nodiscard]] std::vector<VehicleId> withheld_by(std::size_t who) const {
     const std::size_t route = holders_[who].claim.route;
     const std::vector<std::size_t> next = next_stretch(who);
-    std::vector<bool> is_needed(map_.num_cells());
-    for (const std::size_t cell : next) {
-      for (const std::uint32_t one : map_.overlaps(route, cell)) is_needed[one] = true;
-    }
     std::vector<VehicleId> vehicles;
-    for (std::size_t other = 0; other < holders_.size(); ++other) {
-      const auto holds = [&](std::uint32_t cell) { return is_needed[cell]; };
-      if (other != who && std::ranges::any_of(held_by(other), holds)) {
-        vehicles.push_back(holders_[other].vehicle);
-      }
+    for (const std::size_t other : holders_of_overlapping(route, next)) {
+      if (other != who) vehicles.push_back(holders_[other].vehicle);
     }
     for (const Blocked& one : blocked_) {
       const auto blocks = [&](std::size_t cell) {
@@ -76,6 +69,18 @@ class Grants {
     return vehicles;
   }
 
+  /// Holders whose cells overlap this one's, or those of another one of these; itself included.
+  [[nodiscard]] std::vector<std::size_t> connected_with(std::size_t who) const {
+    std::vector<std::size_t> connected{who};
+    for (std::size_t i = 0; i < connected.size(); ++i) {
+      const std::size_t route = holders_[connected[i]].claim.route;
+      for (const std::size_t other : holders_of_overlapping(route, places_of(connected[i]))) {
+        if (std::ranges::find(connected, other) == connected.end()) connected.push_back(other);
+      }
+    }
+    return connected;
+  }
+
  private:
   [[nodiscard]] CellNumber first_of(std::size_t who) const {
     const coordination::LaneClaim& claim = holders_[who].claim;
@@ -85,15 +90,37 @@ class Grants {
     const coordination::LaneClaim& claim = holders_[who].claim;
     return map_.count_at(claim.route, claim.place_m + ahead_m_[who]);
   }
-  [[nodiscard]] std::vector<std::uint32_t> held_by(std::size_t who) const {
+  /// Indices on its route of the cells that it holds.
+  [[nodiscard]] std::vector<std::size_t> places_of(std::size_t who) const {
     const std::size_t route = holders_[who].claim.route;
     const auto whole_route = static_cast<CellNumber>(map_.num_cells(route));
     const CellNumber end = std::min(last_of(who) + 1, first_of(who) + whole_route);
-    std::vector<std::uint32_t> cells;
+    std::vector<std::size_t> places;
     for (CellNumber cell = first_of(who); cell < end; ++cell) {
-      cells.push_back(map_.cell(route, map_.index_of(route, cell)));
+      places.push_back(map_.index_of(route, cell));
     }
+    return places;
+  }
+  [[nodiscard]] std::vector<std::uint32_t> held_by(std::size_t who) const {
+    const std::size_t route = holders_[who].claim.route;
+    std::vector<std::uint32_t> cells;
+    for (const std::size_t place : places_of(who)) cells.push_back(map_.cell(route, place));
     return cells;
+  }
+
+  /// Those that hold a cell that overlaps one of these, in their order.
+  [[nodiscard]] std::vector<std::size_t> holders_of_overlapping(
+      std::size_t route, const std::vector<std::size_t>& places) const {
+    std::vector<bool> overlaps(map_.num_cells());
+    for (const std::size_t place : places) {
+      for (const std::uint32_t one : map_.overlaps(route, place)) overlaps[one] = true;
+    }
+    const auto is_overlapping = [&](std::uint32_t cell) { return overlaps[cell]; };
+    std::vector<std::size_t> found;
+    for (std::size_t who = 0; who < holders_.size(); ++who) {
+      if (std::ranges::any_of(held_by(who), is_overlapping)) found.push_back(who);
+    }
+    return found;
   }
 
   void count(std::size_t who, int by) {
@@ -158,25 +185,28 @@ std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holder
   return grants.ahead_m();
 }
 
-std::vector<Holder> cautious_grant(const ConflictMap& map, std::span<const Holder> holders,
-                                   std::span<const Missing> missing,
-                                   std::span<const Blocked> blocked, double look_ahead_m,
-                                   VehicleId own) {
+std::optional<std::vector<Holder>> cautious_grant(const ConflictMap& map,
+                                                  std::span<const Holder> holders,
+                                                  std::span<const Missing> missing,
+                                                  std::span<const Blocked> blocked,
+                                                  double look_ahead_m, VehicleId own) {
   Grants held(map, holders, {});
-  std::vector<Holder> reached(holders.begin(), holders.end());
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    if (reached[i].vehicle != own) reached[i].claim.ahead_m = held.reach_m(i, look_ahead_m);
+  std::vector<Holder> reaches(holders.begin(), holders.end());
+  for (std::size_t i = 0; i < holders.size(); ++i) {
+    reaches[i].claim.ahead_m = held.reach_m(i, look_ahead_m);
   }
   for (const Missing& one : missing) {
-    Holder& last = reached.emplace_back(one.last);
+    Holder& last = reaches.emplace_back(one.last);
     last.claim.ahead_m = std::max(last.claim.ahead_m, one.moved_m);
     last.claim.ahead_m = held.reach_m(last.claim, look_ahead_m + one.moved_m);
   }
   const auto who =
-      static_cast<std::size_t>(std::ranges::find(reached, own, &Holder::vehicle) - reached.begin());
-  Grants free(map, reached, blocked);
-  reached[who].claim.ahead_m = free.reach_m(who, look_ahead_m);
-  return reached;
+      static_cast<std::size_t>(std::ranges::find(reaches, own, &Holder::vehicle) - reaches.begin());
+  const auto is_missing = [&](std::size_t i) { return i >= holders.size(); };
+  if (std::ranges::none_of(Grants(map, reaches, {}).connected_with(who), is_missing)) return {};
+  reaches[who] = holders[who];
+  reaches[who].claim.ahead_m = Grants(map, reaches, blocked).reach_m(who, look_ahead_m);
+  return reaches;
 }
 
 std::vector<VehicleId> withheld_by(const ConflictMap& map, std::span<const Holder> holders,

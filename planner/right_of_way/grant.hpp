@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,25 +52,28 @@ struct Missing {
 
 /// For a controller that has not received all: all vehicles with what each may hold at the end of
 /// this step, whatever it has received, and the vehicle `own` with what it takes: cells outside of
-/// all that.
+/// all that. None if no missing vehicle can change what `grant` gives to `own`: then it takes that.
 ///
 /// So no two vehicles hold overlapping cells, whatever is lost. By induction, let none do as the
-/// step begins.
+/// step begins. The *reach* of a vehicle is what it may hold at the end of the step: the cells up
+/// to its look-ahead that none of those that were received holds.
+/// * A vehicle takes cells in its reach only. So does a missing one: what it has taken since it was
+///   last received was free when it took it, and those that were received hold theirs still, or
+///   hold only cells behind it that it has left, up to `moved_m`.
 /// * Those that have received all take the result of `grant`, the same for all and without overlap.
-/// * A vehicle takes only cells that nobody holds as the step begins, up to its look-ahead. For one
-///   that was received this is assumed here in full, so it contains what `grant` gives to it.
-/// * A missing one has driven `moved_m` at most. What it has taken since then was free when it took
-///   it, and is free of the cells of those that were received: they hold theirs still, or hold only
-///   cells behind it that it has left.
-/// * So what a vehicle takes here overlaps nothing that another one holds or takes in this step.
+/// * `grant` gives to a vehicle what it would give if only those existed whose reaches are connected
+///   with its own by overlaps, and these are the same or fewer for who knows more. So who has
+///   received all of those takes the result of `grant` with the others.
+/// * Everybody else takes only what is in nobody's reach.
 ///
-/// What blocks a vehicle is not the same for all, so nothing blocks the others here.
+/// Assumed: places move by at most `moved_m`, plans end in cells that were granted, and what blocks
+/// is the same for all. It is not where some consider a vehicle gone and others do not.
 /// @pre `own` is one of `holders`, none of `missing`
-[[nodiscard]] std::vector<Holder> cautious_grant(const ConflictMap& map,
-                                                 std::span<const Holder> holders,
-                                                 std::span<const Missing> missing,
-                                                 std::span<const Blocked> blocked,
-                                                 double look_ahead_m, VehicleId own);
+[[nodiscard]] std::optional<std::vector<Holder>> cautious_grant(const ConflictMap& map,
+                                                                std::span<const Holder> holders,
+                                                                std::span<const Missing> missing,
+                                                                std::span<const Blocked> blocked,
+                                                                double look_ahead_m, VehicleId own);
 
 /// The vehicles that hold or block cells of what would be granted next to the vehicle with this
 /// index, in the order of `holders`, then of `blocked`.

@@ -157,15 +157,6 @@ int campaign(const Choices& choices, const std::string& flags) {
   return failed.empty() ? 0 : 1;
 }
 
-void check_cars(const FaultCampaignSettings& settings) {
-  const std::size_t most = settings.on_lab_network ? hlc::closed_loop::kMostCarsOnLabNetwork
-                                                   : hlc::closed_loop::kMostCars;
-  const bool is_possible = settings.cars >= hlc::closed_loop::kFewestCars && settings.cars <= most;
-  if (settings.cars == 0 || is_possible) return;
-  throw std::invalid_argument(fmt::format("--cars: {}, must be 0 or in {} ... {}", settings.cars,
-                                          hlc::closed_loop::kFewestCars, most));
-}
-
 /// The flags to repeat before --replay for the same runs.
 std::string flags_of(const Choices& choices) {
   return fmt::format(" --cars {}{}{}{}{}", choices.campaign.cars,
@@ -182,8 +173,6 @@ int main(int argc, char** argv) {
   app.footer("Exit codes: 0 nothing is violated, 1 something is, 2 bad flags or files.");
   Choices choices;
   std::vector<std::string> keep;
-  choices.campaign.scenario_folder =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "scenarios";
   app.add_option("--cars", choices.campaign.cars,
                  fmt::format("{} ... {}, with --lab_network {}; 0: as the seed has it",
                              hlc::closed_loop::kFewestCars, hlc::closed_loop::kMostCars,
@@ -219,7 +208,10 @@ int main(int argc, char** argv) {
   if (const std::optional<int> code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   const auto run = [&] {
     hlc::apps::check_each_once("--faults", choices.faults);
-    check_cars(choices.campaign);
+    if (choices.campaign.scenario_folder.empty()) {
+      choices.campaign.scenario_folder =
+          std::filesystem::read_symlink("/proc/self/exe").parent_path() / "scenarios";
+    }
     choices.campaign.kinds = hlc::closed_loop::fault_kinds_of(choices.faults);
     if (!keep.empty()) choices.keep.emplace();
     for (const std::string& index : keep) {

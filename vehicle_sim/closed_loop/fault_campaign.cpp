@@ -1,5 +1,7 @@
 #include "vehicle_sim/closed_loop/fault_campaign.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -54,6 +56,11 @@ scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars) {
 }
 
 FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::move(settings)) {
+  const std::size_t most = settings_.on_lab_network ? kMostCarsOnLabNetwork : kMostCars;
+  if (settings_.cars != 0 && (settings_.cars < kFewestCars || settings_.cars > most)) {
+    throw std::invalid_argument(
+        fmt::format("--cars = {}, must be 0 or in {} ... {}", settings_.cars, kFewestCars, most));
+  }
   const std::filesystem::path& folder = settings_.scenario_folder;
   const std::size_t most_cars = std::max(settings_.cars, kMostCars);
   const scenario::Scenario roads =

@@ -58,7 +58,8 @@ struct Shrunk {
 /// Scenarios are read and automata built once; then any number of threads may run.
 class FaultCampaign {
  public:
-  /// @throws std::invalid_argument, std::runtime_error if a scenario cannot be read
+  /// @throws std::invalid_argument naming the flag --cars if it is out of range;
+  /// std::invalid_argument, std::runtime_error if a scenario cannot be read
   explicit FaultCampaign(FaultCampaignSettings settings);
 
   [[nodiscard]] FaultCase draw(std::uint64_t seed) const;

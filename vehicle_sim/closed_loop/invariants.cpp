@@ -178,8 +178,7 @@ void ReasonsCheck::ended(const std::string& process, int exit_code, Nanoseconds 
 
 void ReasonsCheck::reported(const coordination::Report& report, Nanoseconds at,
                             Violations& violations) {
-  const bool is_due_to_others = report.reason == coordination::FallbackReason::kConflict ||
-                                report.reason == coordination::FallbackReason::kMissing ||
+  const bool is_due_to_others = report.reason == coordination::FallbackReason::kMissing ||
                                 report.reason == coordination::FallbackReason::kNeighbour;
   if (!is_due_to_others || !report.blocked_by.empty()) return;
   violations.push_back({.at = at,

@@ -135,7 +135,8 @@ class PlansCheck {
 
 /// A process that stops has logged the reason: one that ends with an exit code of failure, in a
 /// warning or an error of its log; a vehicle that no longer follows a command, in a line of its
-/// log. A report of a fallback that others cause (kConflict, kMissing, kNeighbour) names them.
+/// log. A report of a fallback that only others cause (kMissing, kNeighbour) names them; a conflict
+/// may be due to the vehicle's own drift (controller/blocked_by.hpp).
 class ReasonsCheck {
  public:
   void started(const std::string& process) { lines_[process] = {}; }

@@ -74,6 +74,7 @@ class AuthorityTest : public testing::Test {
     std::vector<const Traffic*> pointers;
     for (const Traffic& other : others) pointers.push_back(&other);
     SharedStep shared;
+    authority_.receive(pointers);
     authority_.extend({1}, pointers, missing, {}, step_m, shared);
   }
   [[nodiscard]] double end_m() const {
@@ -233,7 +234,13 @@ TEST_F(AuthorityTest, OnlyWhoHoldsWhatIsWantedNextWithholdsIt) {
 }
 
 TEST(AuthorityOnACrossing, AMissingVehicleIsAssumedToTakeWhatItCanReach) {
-  for (const double step_m : {0.1, 0.5}) {
+  struct Silence {
+    double step_m;
+    std::uint64_t until;  ///< from step 1 on; steps in between are skipped
+    bool takes;
+  };
+  for (const auto& [step_m, until, takes] :
+       {Silence{0.1, 2, true}, Silence{0.5, 2, false}, Silence{0.1, 6, false}}) {
     const Ring at_zero(right_of_way::figure_eight());
     const double length_m = at_zero.path().length_m();
     const Ring eight(right_of_way::figure_eight(), length_m - 0.6);
@@ -244,11 +251,13 @@ TEST(AuthorityOnACrossing, AMissingVehicleIsAssumedToTakeWhatItCanReach) {
     Authority authority(eight.map);
     SharedStep shared;
     authority.begin_step(plan, {1}, eight.tracker, kReach_m);
-    authority.extend({1}, std::array{&other, &on_crossing}, {}, {}, step_m, shared);
+    const std::array received{&other, &on_crossing};
+    authority.receive(received);
+    authority.extend({1}, received, {}, {}, step_m, shared);
     EXPECT_LT(authority.claim().ahead_m, 0.6);
-    authority.begin_step(plan, {2}, eight.tracker, kReach_m);
+    authority.begin_step(plan, {until}, eight.tracker, kReach_m);
     authority.extend({1}, std::array{&beyond}, std::array{other.vehicle}, {}, step_m, shared);
-    EXPECT_EQ(authority.claim().ahead_m > 0.6, step_m < 0.5) << step_m;
+    EXPECT_EQ(authority.claim().ahead_m > 0.6, takes) << step_m << ' ' << until;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <random>
+#include <span>
 #include <utility>
 
 #include "planner/scenario/starts.hpp"
@@ -254,6 +255,20 @@ TEST_F(GrantAtACrossing, BehindAVehicleAheadItEndsAtThatOnesPlace) {
   EXPECT_GT(after[1].claim.ahead_m, 1.5 - 0.24 - 0.08);
 }
 
+// Two that both missed a vehicle far away would wait for each other for good.
+TEST_F(GrantAtACrossing, WhoMissesAVehicleThatCannotMatterTakesWhatIsGranted) {
+  const std::vector<Holder> holders{before_crossing(1, 0, 0.5, 3), before_crossing(2, 1, 0.5, 3)};
+  const auto taken = [&](std::span<const Holder> received, double missing_before_m) {
+    const std::vector<Missing> missing{{.last = before_crossing(3, 1, missing_before_m, 0)}};
+    return cautious_grant(map_, received, missing, {}, kLookAhead_m, {1});
+  };
+  EXPECT_FALSE(taken(holders, -1.5)) << "it has left the crossing";
+  EXPECT_FALSE(taken(holders, 1.0)) << "it is behind vehicle 2";
+  const auto cautious = taken(std::span(holders).first(1), 1.0);
+  ASSERT_TRUE(cautious);
+  EXPECT_LT(cautious->front().claim.ahead_m, 0.5);
+}
+
 TEST(Grant, NothingIsGrantedWhereTheWholeRouteIsInConflict) {
   const ConflictMap map({{circle({0.0, 0.0}, 1.0), circle({0.0, 0.0}, 1.0, -1.0)}}, kCar);
   const Holder one{.vehicle = {1}, .claim = {.place_m = 1.0, .ahead_m = 0.25}};
@@ -301,10 +316,11 @@ class RandomTraffic {
           missing.push_back(known);
         }
       }
-      num_cautious += missing.empty() ? 0U : 1U;
-      const std::vector<Holder> all =
-          missing.empty() ? granted(map_, received)
+      const auto cautious =
+          missing.empty() ? std::nullopt
                           : cautious_grant(map_, received, missing, {}, kLookAhead_m, own.vehicle);
+      num_cautious += cautious ? 1U : 0U;
+      const std::vector<Holder> all = cautious ? *cautious : granted(map_, received);
       after.push_back(*std::ranges::find(all, own.vehicle, &Holder::vehicle));
     }
     holders_ = std::move(after);
