@@ -72,6 +72,12 @@ void Controller::set_max_expansions(std::size_t max_expansions) {
   search_.set_max_expansions(max_expansions);
 }
 
+void Controller::coordinate_by(const coordination::PriorityRule& plans_before,
+                               const CoordinationRule& rule) {
+  options_.strategies.plans_before = plans_before;
+  options_.strategies.coordination = rule;
+}
+
 void Controller::switch_to(const PreparedSubgraph& next) {
   search_.switch_to(next, options_.search, last_step());
   drivable_area_.note_switch();

@@ -76,6 +76,10 @@ class Controller {
   /// Applies to each search from now on. Not in the middle of a step.
   void set_max_expansions(std::size_t max_expansions);
 
+  /// Another order and rule of coordination from the next step on; all vehicles of a run need the
+  /// same. Not in the middle of a step.
+  void coordinate_by(const coordination::PriorityRule& plans_before, const CoordinationRule& rule);
+
   /// Plans on another subgraph from the next step on, of the same automaton or of one that differs
   /// from it in its maneuvers alone. Not in the middle of a step. The plan in force stays, even if
   /// parts of it are disabled now, and is the fallback as always: see Subgraph for the rule. Where

@@ -47,10 +47,9 @@ inline constexpr CoordinationRule kCooperativeCoordination{
 inline constexpr CoordinationRule kAgreedCoordination{
     .commit = coordination::kAgreedCommit, .obstacles = &predictions_and_standing_successors};
 
-/// The rules by which a controller plans and coordinates. A user's own rule is one function. All
-/// vehicles of a run need the same.
+/// The rules by which a controller plans and coordinates. All vehicles of a run need the same.
 struct ControllerStrategies {
-  coordination::PriorityRule plans_before{&coordination::smaller_id_first};
+  coordination::PriorityRule plans_before{};
   CoordinationRule coordination{kCooperativeCoordination};
   IncumbentRule incumbent{&rest_of_plan_in_force};
   StandstillTimeoutRule standstill_timeout{&once_per_horizon};

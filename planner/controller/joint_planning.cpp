@@ -1,6 +1,7 @@
 #include "planner/controller/joint_planning.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <set>
 
@@ -36,7 +37,7 @@ bool JointPlanning::can_plan(VehicleId vehicle, const Controller& own) {
 
 std::vector<VehicleId> JointPlanning::vehicles_that_matter(const Controller& own) const {
   const coordination::CouplingGraph& coupling = own.coupling();
-  const coordination::PriorityRule plans_before = own.options().strategies.plans_before;
+  const coordination::PriorityRule& plans_before = own.options().strategies.plans_before;
   std::vector<VehicleId> found{own.options().vehicle};
   std::ranges::copy(own.coupled(), std::back_inserter(found));
   std::set<VehicleId> known(found.begin(), found.end());
@@ -45,7 +46,7 @@ std::vector<VehicleId> JointPlanning::vehicles_that_matter(const Controller& own
       if (known.insert(before).second) found.push_back(before);
     }
   }
-  std::ranges::sort(found, plans_before);
+  std::ranges::sort(found, std::cref(plans_before));
   return found;
 }
 

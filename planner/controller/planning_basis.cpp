@@ -97,8 +97,10 @@ std::uint64_t number_of(const Rule& rule, const std::array<Rule, n>& known) {
 }
 
 void add(WordHash& hash, const ControllerStrategies& strategies) {
-  hash.add(number_of(strategies.plans_before,
-                     std::array<coordination::PriorityRule, 1>{&coordination::smaller_id_first}));
+  hash.add(std::uint64_t{strategies.plans_before.first().size()});
+  for (const VehicleId vehicle : strategies.plans_before.first()) {
+    hash.add(std::uint64_t{vehicle.value});
+  }
   hash.add(
       number_of(strategies.coordination,
                 std::array{kStrictCoordination, kCooperativeCoordination, kAgreedCoordination}));

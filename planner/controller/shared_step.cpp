@@ -14,7 +14,7 @@ bool couples_alike(const coordination::Traffic* a, const coordination::Traffic* 
 }  // namespace
 
 const SharedStep::Coupling& SharedStep::coupling(std::vector<const coordination::Traffic*> traffic,
-                                                 coordination::PriorityRule plans_before) {
+                                                 const coordination::PriorityRule& plans_before) {
   std::ranges::sort(traffic, {}, [](const coordination::Traffic* one) { return one->vehicle; });
   if (!coupling_ || plans_before != plans_before_ ||
       !std::ranges::equal(traffic, traffic_, couples_alike)) {

@@ -24,7 +24,7 @@ class SharedStep {
 
   /// @param traffic  as for CouplingGraph; kept by address: must outlive this object, unchanged
   [[nodiscard]] const Coupling& coupling(std::vector<const coordination::Traffic*> traffic,
-                                         coordination::PriorityRule plans_before);
+                                         const coordination::PriorityRule& plans_before);
 
   /// right_of_way::grant. @param holders  sorted by vehicle
   [[nodiscard]] const std::vector<double>& granted(const right_of_way::ConflictMap& map,
@@ -42,7 +42,7 @@ class SharedStep {
   };
 
   std::vector<const coordination::Traffic*> traffic_;  ///< of `coupling_`
-  coordination::PriorityRule plans_before_{};
+  coordination::PriorityRule plans_before_;
   std::optional<Coupling> coupling_;
   std::optional<Granted> granted_;
 };

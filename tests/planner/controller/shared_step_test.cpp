@@ -9,12 +9,12 @@
 namespace hlc::controller::shared_step_test {
 namespace {
 
-using coordination::smaller_id_first;
 using coordination::Traffic;
 using testing::ElementsAre;
 using testing::Pair;
 
-bool larger_id_first(VehicleId a, VehicleId b) { return b < a; }
+const coordination::PriorityRule kSmallerIdFirst;
+const coordination::PriorityRule kTwoFirst({{3}, {2}});
 
 Traffic reaching(std::uint8_t vehicle, double x_m) {
   return {.vehicle = {vehicle}, .reachable_area_m = footprint_area({1.0, 1.0}, {x_m, 0.0, 0.0})};
@@ -25,9 +25,9 @@ TEST(SharedStep, IsComputedOnceForEqualTraffic) {
   const Traffic two = reaching(2, 0.5);
   const Traffic copy = one;
   SharedStep shared;
-  const auto* const graph = &shared.coupling({&two, &one}, smaller_id_first).graph;
+  const auto* const graph = &shared.coupling({&two, &one}, kSmallerIdFirst).graph;
   const VehicleId* const vehicles = graph->vehicles().data();
-  EXPECT_EQ(shared.coupling({&copy, &two}, smaller_id_first).graph.vehicles().data(), vehicles)
+  EXPECT_EQ(shared.coupling({&copy, &two}, kSmallerIdFirst).graph.vehicles().data(), vehicles)
       << "kept";
 }
 
@@ -38,18 +38,18 @@ TEST(SharedStep, IsComputedAgainForEveryOtherInput) {
   const Traffic three = reaching(3, 0.5);
   SharedStep shared;
   const auto levels = [&](std::vector<const Traffic*> traffic,
-                          coordination::PriorityRule plans_before) {
+                          const coordination::PriorityRule& plans_before) {
     return shared.coupling(std::move(traffic), plans_before).levels;
   };
-  EXPECT_THAT(levels({&one, &two}, smaller_id_first),
+  EXPECT_THAT(levels({&one, &two}, kSmallerIdFirst),
               ElementsAre(Pair(VehicleId{1}, 0), Pair(VehicleId{2}, 1)));
-  EXPECT_THAT(levels({&one, &two}, larger_id_first),
+  EXPECT_THAT(levels({&one, &two}, kTwoFirst),
               ElementsAre(Pair(VehicleId{1}, 1), Pair(VehicleId{2}, 0)));
-  EXPECT_THAT(levels({&one, &far}, larger_id_first),
+  EXPECT_THAT(levels({&one, &far}, kTwoFirst),
               ElementsAre(Pair(VehicleId{1}, 0), Pair(VehicleId{2}, 0)));
-  EXPECT_THAT(levels({&one, &three}, larger_id_first),
+  EXPECT_THAT(levels({&one, &three}, kTwoFirst),
               ElementsAre(Pair(VehicleId{1}, 1), Pair(VehicleId{3}, 0)));
-  EXPECT_THAT(levels({&one}, larger_id_first), ElementsAre(Pair(VehicleId{1}, 0)));
+  EXPECT_THAT(levels({&one}, kTwoFirst), ElementsAre(Pair(VehicleId{1}, 0)));
 }
 
 /// A closed route of 8 m without crossings.

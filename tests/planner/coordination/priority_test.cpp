@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "planner/geometry/footprint.hpp"
@@ -11,6 +12,8 @@
 namespace hlc::coordination {
 namespace {
 
+const PriorityRule kSmallerIdFirst;
+
 Traffic reaching(std::uint8_t vehicle, double x, double y) {
   Traffic traffic;
   traffic.vehicle = {vehicle};
@@ -19,17 +22,23 @@ Traffic reaching(std::uint8_t vehicle, double x, double y) {
 }
 
 TEST(Priority, TheSmallerIdPlansEarlier) {
-  EXPECT_TRUE(smaller_id_first({1}, {2}));
-  EXPECT_FALSE(smaller_id_first({2}, {1}));
-  EXPECT_FALSE(smaller_id_first({2}, {2}));
+  EXPECT_TRUE(kSmallerIdFirst({1}, {2}));
+  EXPECT_FALSE(kSmallerIdFirst({2}, {1}));
+  EXPECT_FALSE(kSmallerIdFirst({2}, {2}));
+}
+
+TEST(Priority, SomeVehiclesMayPlanBeforeAllOthers) {
+  std::vector<VehicleId> order{{1}, {2}, {3}, {4}, {5}};
+  std::ranges::sort(order, PriorityRule({{4}, {2}}));
+  EXPECT_EQ(order, (std::vector<VehicleId>{{4}, {2}, {1}, {3}, {5}}));
 }
 
 TEST(Priority, PredecessorsAreTheCoupledVehiclesThatPlanEarlier) {
   const CouplingGraph graph = graph_of(
       {reaching(1, 0.0, 0.0), reaching(2, 0.5, 0.0), reaching(3, 1.0, 0.5), reaching(4, 9.0, 9.0)});
-  EXPECT_EQ(predecessors(graph, {1}, smaller_id_first), std::vector<VehicleId>{});
-  EXPECT_EQ(predecessors(graph, {2}, smaller_id_first), std::vector<VehicleId>{{1}});
-  EXPECT_EQ(predecessors(graph, {4}, smaller_id_first), std::vector<VehicleId>{});
+  EXPECT_EQ(predecessors(graph, {1}, kSmallerIdFirst), std::vector<VehicleId>{});
+  EXPECT_EQ(predecessors(graph, {2}, kSmallerIdFirst), std::vector<VehicleId>{{1}});
+  EXPECT_EQ(predecessors(graph, {4}, kSmallerIdFirst), std::vector<VehicleId>{});
 }
 
 // The directed coupling has no cycle, so no two vehicles wait for each other.
@@ -44,10 +53,10 @@ TEST(Priority, EveryPredecessorIsOnALowerLevel) {
       traffic.push_back(reaching(id, x, place(random)));
     }
     const CouplingGraph graph = graph_of(traffic);
-    const auto levels = computation_levels(graph, smaller_id_first);
+    const auto levels = computation_levels(graph, kSmallerIdFirst);
     for (const VehicleId vehicle : graph.vehicles()) {
       std::uint32_t expected = 0;
-      for (const VehicleId other : predecessors(graph, vehicle, smaller_id_first)) {
+      for (const VehicleId other : predecessors(graph, vehicle, kSmallerIdFirst)) {
         expected = std::max(expected, levels.at(other) + 1);
       }
       EXPECT_EQ(levels.at(vehicle), expected);
