@@ -9,16 +9,13 @@
 
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/record/configuration.hpp"
-#include "hlc_bridge/record/drive_file.hpp"
-#include "hlc_bridge/record/facts_file.hpp"
-#include "hlc_bridge/record/incomplete_files.hpp"
 #include "hlc_bridge/record/log_files.hpp"
 #include "hlc_bridge/record/program.hpp"
 #include "hlc_bridge/record/report_file.hpp"
+#include "hlc_bridge/record/run_folder.hpp"
 #include "hlc_bridge/record/step_files.hpp"
 #include "hlc_bridge/record/summary_file.hpp"
 #include "hlc_bridge/result/driving_fault.hpp"
-#include "hlc_bridge/result/run_description.hpp"
 #include "hlc_bridge/result/run_summary.hpp"
 #include "hlc_bridge/result/summary_table.hpp"
 #include "hlc_bridge/view/run_page.hpp"
@@ -85,42 +82,30 @@ struct Choices {
 /// Returns the exit code.
 int summarize_run(const Choices& choices) {
   const std::filesystem::path& run = choices.run;
-  const std::vector<hlc::ReportRecord> reports = hlc::record::read_reports(run / "reports.csv");
-  hlc::result::RunFacts facts = hlc::record::read_facts(run / "run.json");
-  if (!facts.first_step) {
-    facts.first_step = hlc::result::first_step_of(reports);  // the lab control did not end the run
-  }
-  const hlc::record::RunChoices driven = hlc::record::choices_of_run(run, choices.given);
-  const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(driven.scenario);
-  const hlc::result::RunDescription description =
-      hlc::result::describe(scenario, driven.noise_seed);
-  hlc::result::check_run(facts, description);
-  const hlc::result::Drives drives = hlc::record::read_drives(run, facts.vehicle_ids);
-  const std::vector<hlc::result::StepRecord> rows =
-      hlc::result::step_records(reports, drives, facts);
-  const std::vector<std::string> incomplete = hlc::record::incomplete_files(facts, rows, drives);
-  for (const std::string& line : incomplete) {
+  hlc::record::RunFolder read = hlc::record::read_run_folder(run, choices.given);
+  for (const std::string& line : read.incomplete) {
     std::cerr << "summarize: " << run.string() << ": " << line << '\n';
   }
 
-  hlc::result::RunSummary summary = hlc::result::summarize(description, facts, rows, drives);
+  hlc::result::RunSummary summary =
+      hlc::result::summarize(read.description, read.facts, read.rows, read.drives);
   summary.revision = hlc::program_revision();
   summary.host = hlc::record::this_host();
   remove_old_page(run);
-  hlc::write_file(run / "steps.csv", hlc::record::steps_csv(rows));
-  hlc::write_file(run / "timing.csv", hlc::record::timing_csv(rows));
+  hlc::write_file(run / "steps.csv", hlc::record::steps_csv(read.rows));
+  hlc::write_file(run / "timing.csv", hlc::record::timing_csv(read.rows));
   hlc::write_file(run / "summary.json", hlc::record::summary_json(summary));
-  hlc::record::keep_configuration(run, hlc::scenario::files_of(scenario));
+  hlc::record::keep_configuration(run, hlc::scenario::files_of(read.scenario));
   Verdict verdict = verdict_on(summary);
   bool has_page = false;
   if (choices.page) {
     hlc::view::FinishedRun page;
-    page.description = description;
-    page.facts = facts;
-    page.rows = rows;
-    page.drives = drives;
-    page.fault = faults_of(verdict, incomplete);
-    has_page = write_page(run, scenario, std::move(page));
+    page.description = std::move(read.description);
+    page.facts = std::move(read.facts);
+    page.rows = std::move(read.rows);
+    page.drives = std::move(read.drives);
+    page.fault = faults_of(verdict, read.incomplete);
+    has_page = write_page(run, read.scenario, std::move(page));
     if (!has_page && verdict.exit_code == hlc::kExitGood) verdict.exit_code = hlc::kExitBadInput;
   }
   std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';

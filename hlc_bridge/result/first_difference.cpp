@@ -27,15 +27,10 @@ enum class Kind : std::uint8_t { kReports, kInput, kMessages, kPlan };
 constexpr std::string_view kOnlyFirst = "in the first run only";
 constexpr std::string_view kOnlySecond = "in the second run only";
 
-struct Unit {
-  const char* name;
-  const char* gap_name;  ///< of the distance between two values
-  double gaps_per_unit;
-};
-constexpr Unit kMetres{"m", "mm", 1e3};
-constexpr Unit kRadians{"rad", "rad", 1.0};
-constexpr Unit kMetresPerSecond{"m/s", "m/s", 1.0};
-constexpr Unit kSquareMetres{"m^2", "m^2", 1.0};
+constexpr char kMetres[] = "m";
+constexpr char kRadians[] = "rad";
+constexpr char kMetresPerSecond[] = "m/s";
+constexpr char kSquareMetres[] = "m^2";
 
 bool is_same(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -49,6 +44,12 @@ std::pair<std::string, std::string> shortest_texts(double a, double b) {
     if (texts.first != texts.second) break;
   }
   return texts;
+}
+
+/// Short distances in millimetres.
+std::string gap_text(double gap, const std::string& unit) {
+  const bool is_short = unit == kMetres && gap < 0.1;
+  return is_short ? fmt::format("{:.2g} mm", gap * 1e3) : fmt::format("{:.2g} {}", gap, unit);
 }
 
 std::string list_text(const std::vector<VehicleId>& ids) {
@@ -85,11 +86,11 @@ class Comparison {
   void counts(std::string_view name, std::uint64_t a, std::uint64_t b) {
     texts(name, fmt::to_string(a), fmt::to_string(b));
   }
-  void numbers(std::string_view name, const Unit& unit, double a, double b) {
+  void numbers(std::string_view name, const std::string& unit, double a, double b) {
     if (differs() || is_same(a, b)) return;
     const auto [first, second] = shortest_texts(a, b);
-    text_ = fmt::format("{} {} {} and {} {}, {:.2g} {} apart", name, first, unit.name, second,
-                        unit.name, std::abs(a - b) * unit.gaps_per_unit, unit.gap_name);
+    text_ = fmt::format("{} {} {} and {} {}, {} apart", name, first, unit, second, unit,
+                        gap_text(std::abs(a - b), unit));
   }
   void poses(std::string_view whose, const Pose& a, const Pose& b) {
     numbers(fmt::format("{} x", whose), kMetres, a.x_m, b.x_m);

@@ -86,7 +86,7 @@ TEST(FirstDifference, OfTheInputIsNamedWithBothValues) {
   EXPECT_EQ(text_after([](StepRecord& row) { row.driven->x_m = 3.0001; }),
             "input: driven x 3 m and 3.0001 m, 0.1 mm apart");
   EXPECT_EQ(text_after([](StepRecord& row) { row.driven->y_m = 2.5; }),
-            "input: driven y 2 m and 2.5 m, 5e+02 mm apart");
+            "input: driven y 2 m and 2.5 m, 0.5 m apart");
   EXPECT_EQ(text_after([](StepRecord& row) { row.driven->heading_rad = 0.25; }),
             "input: driven yaw 0.5 rad and 0.25 rad, 0.25 rad apart");
   EXPECT_EQ(text_after([](StepRecord& row) { row.driven_speed_mps = 0.5; }),
@@ -155,7 +155,7 @@ TEST(FirstDifference, OfThePlanIsNamedWithBothValues) {
   EXPECT_EQ(text_after_report([](Report& report) { report.expanded = 11; }),
             "plan: expanded vertices 10 and 11");
   EXPECT_EQ(text_after_report([](Report& report) { report.planned_pose.x_m = 3.5; }),
-            "plan: planned x 3 m and 3.5 m, 5e+02 mm apart");
+            "plan: planned x 3 m and 3.5 m, 0.5 m apart");
   EXPECT_EQ(text_after_report([](Report& report) { report.planned_trim = TrimId{4}; }),
             "plan: planned trim 1 and 5");
   EXPECT_EQ(text_after_report([](Report& report) { report.maneuver = "left\n"; }),

@@ -1,0 +1,75 @@
+// Compares two run folders: how their starts differ, where the runs begin to differ and in what,
+// the main numbers side by side.
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/record/run_folder.hpp"
+#include "hlc_bridge/record/start_differences.hpp"
+#include "hlc_bridge/result/run_comparison.hpp"
+#include "hlc_bridge/view/comparison_page.hpp"
+#include "planner/apps/flags.hpp"
+#include "planner/apps/output_files.hpp"
+#include "planner/common/text_file.hpp"
+#include "planner/road/lanelet_map.hpp"
+
+namespace {
+
+constexpr int kExitDifferent = 1;
+
+hlc::result::ComparedRun compared(hlc::record::RunFolder run) {
+  hlc::result::RunSummary summary =
+      hlc::result::summarize(run.description, run.facts, run.rows, run.drives);
+  return {.name = run.folder.string(),
+          .summary = std::move(summary),
+          .facts = std::move(run.facts),
+          .rows = std::move(run.rows),
+          .drives = std::move(run.drives),
+          .incomplete = std::move(run.incomplete)};
+}
+
+std::optional<hlc::road::LaneletMap> map_of(const hlc::record::RunFolder& run) {
+  if (!run.scenario.map_file) return std::nullopt;
+  return hlc::road::read_lanelet_map(*run.scenario.map_file);
+}
+
+/// Returns the exit code.
+int compare_runs(const std::filesystem::path& folder_a, const std::filesystem::path& folder_b,
+                 const hlc::apps::OutputFile& html) {
+  hlc::record::RunFolder a = hlc::record::read_run_folder(folder_a);
+  hlc::record::RunFolder b = hlc::record::read_run_folder(folder_b);
+  hlc::apps::check_output_files({html}, {folder_a / "run.json", folder_a / "reports.csv",
+                                         folder_b / "run.json", folder_b / "reports.csv"});
+  std::vector<std::string> started = hlc::record::start_differences(a, b);
+  const auto map_a = html.file ? map_of(a) : std::nullopt;
+  const auto map_b = html.file ? map_of(b) : std::nullopt;
+  const hlc::result::RunComparison comparison =
+      hlc::result::compare(compared(std::move(a)), compared(std::move(b)), std::move(started));
+  if (html.file) hlc::write_file(*html.file, hlc::view::comparison_page(comparison, map_a, map_b));
+  std::cout << hlc::result::comparison_text(comparison);
+  return comparison.first ? kExitDifferent : hlc::kExitGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Compares two runs: how their starts differ, the first step and vehicle in which they differ "
+      "and in what (reports, input, messages, plan), the main numbers side by side.",
+      "compare"};
+  std::filesystem::path run_a;
+  std::filesystem::path run_b;
+  hlc::apps::OutputFile html{.flag = "--html", .file = {}};
+  app.add_option("RUN_A", run_a, "run folder")->required();
+  app.add_option("RUN_B", run_b, "run folder")->required();
+  hlc::apps::declare_output(app, html, "the same as a page, with a picture of both runs' paths");
+  app.footer(
+      "Exit codes: 0 the runs are equal, 1 they differ, 2 invalid input or an output that cannot "
+      "be written. Measured times and how the runs were started do not count.");
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  return hlc::apps::exit_code_of(
+      "compare", [&] { return compare_runs(run_a, run_b, html); }, hlc::kExitBadInput);
+}

@@ -1,0 +1,50 @@
+#include "hlc_bridge/record/run_folder.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "hlc_bridge/record/drive_file.hpp"
+#include "hlc_bridge/record/facts_file.hpp"
+#include "hlc_bridge/record/incomplete_files.hpp"
+#include "hlc_bridge/record/report_file.hpp"
+#include "hlc_bridge/result/run_description.hpp"
+
+namespace hlc::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_is_there(const fs::path& folder, const fs::path& file) {
+  if (fs::exists(folder / file)) return;
+  throw std::invalid_argument(folder.string() + ": no run folder, " + file.string() +
+                              " is missing");
+}
+
+}  // namespace
+
+RunFolder read_run_folder(const fs::path& folder, const RunChoices& given) {
+  check_is_there(folder, "run.json");
+  check_is_there(folder, "reports.csv");
+  RunFolder run{.folder = folder};
+  run.reports = read_reports(folder / "reports.csv");
+  run.facts = read_facts(folder / "run.json");
+  if (!run.facts.first_step) {
+    run.facts.first_step = result::first_step_of(run.reports);  // the lab control did not end it
+  }
+  run.choices = choices_of_run(folder, given);
+  run.scenario = scenario::read_scenario(run.choices.scenario);
+  run.description = result::describe(run.scenario, run.choices.noise_seed);
+  result::check_run(run.facts, run.description);
+  run.drives = read_drives(folder, run.facts.vehicle_ids);
+  run.rows = result::step_records(run.reports, run.drives, run.facts);
+  run.incomplete = incomplete_files(run.facts, run.rows, run.drives);
+  return run;
+}
+
+RunFolder read_run_folder(const fs::path& folder) {
+  check_is_there(folder, "run.json");
+  check_is_there(folder, fs::path("configuration") / "flags.yaml");
+  return read_run_folder(folder, RunChoices{.scenario = {.profile = {}}, .noise_seed = {}});
+}
+
+}  // namespace hlc::record

@@ -1,0 +1,110 @@
+#include "hlc_bridge/result/run_comparison.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planner/common/text_file.hpp"
+
+namespace hlc::result {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr Nanoseconds kSecond = 1'000'000'000;
+
+/// Vehicles 1 ... `count` that drive 3 m in 2 s along x, after 5 m before the run.
+ComparedRun driven_run(std::uint8_t count) {
+  ComparedRun run;
+  run.name = "run";
+  run.summary.description.scenario = "scenario";
+  run.summary.description.profile = "default";
+  run.summary.description.subgraph = "B";
+  run.summary.description.step_s = 1.0;
+  run.summary.steps = 2;
+  run.summary.trace_sha256 = std::string(64, 'a');
+  run.facts.period = kSecond;
+  run.facts.first_step = 5;
+  run.facts.steps = 2;
+  for (std::uint8_t id = 1; id <= count; ++id) {
+    run.facts.vehicle_ids.push_back(id);
+    run.summary.vehicles.push_back({.id = VehicleId{id}, .name = "car"});
+    run.drives[id] = {{.t = 4 * kSecond, .pose = {-5.0, 0.0, 0.0}},
+                      {.t = 5 * kSecond, .pose = {0.0, 0.0, 0.0}},
+                      {.t = 6 * kSecond, .pose = {1.0, 0.0, 0.0}},
+                      {.t = 7 * kSecond, .pose = {3.0, 0.0, 0.0}}};
+    for (std::uint64_t step = 0; step < 2; ++step) {
+      StepRecord row{.step = step, .record = {}, .driven = Pose{}};
+      row.record.report.vehicle = VehicleId{id};
+      run.rows.push_back(row);
+    }
+  }
+  return run;
+}
+
+TEST(RunComparison, OfEqualRunsHasOneRowPerVehicle) {
+  const RunComparison comparison = compare(driven_run(2), driven_run(2), {});
+  EXPECT_FALSE(comparison.first);
+  EXPECT_THAT(
+      comparison_lines(comparison),
+      ElementsAre("first run: run (scenario, profile default, subgraph B, 2 steps, 2 "
+                  "vehicles)",
+                  "second run: run (scenario, profile default, subgraph B, 2 steps, 2 "
+                  "vehicles)",
+                  "the runs are equal: 2 steps, 2 vehicles, trace_sha256 " + std::string(64, 'a')));
+  EXPECT_THAT(vehicle_table(comparison).rows,
+              ElementsAre(ElementsAre("1 car", "both", "-", "3.000", "1.500", "-", "-", "0", "-"),
+                          ElementsAre("2 car", "both", "-", "3.000", "1.500", "-", "-", "0", "-")));
+}
+
+TEST(RunComparison, NamesStepTimeAndVehicleOfTheFirstDifference) {
+  ComparedRun other = driven_run(2);
+  other.rows[1].record.report.level = 1;  // vehicle 1, step 1
+  other.incomplete = {"reports.csv ends early"};
+  const RunComparison comparison = compare(driven_run(2), std::move(other), {"seed: 1 and 2"});
+  const std::vector<std::string> lines = comparison_lines(comparison);
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[2], "started differently: seed: 1 and 2");
+  EXPECT_EQ(lines[3], "run: reports.csv ends early");
+  EXPECT_EQ(lines[4],
+            "the runs differ at step 1 (1.0 s), vehicle 1: messages: computation level 0 and 1");
+}
+
+TEST(RunComparison, VehiclesWithOtherNumbersAndThoseOfOneRunHaveTheirOwnRows) {
+  ComparedRun other = driven_run(2);
+  other.summary.vehicles[0].fallback_steps = 4;
+  const ComparisonTable table = vehicle_table(compare(driven_run(1), std::move(other), {}));
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_THAT(table.rows[0],
+              ElementsAre("1 car", "first", "-", "3.000", "1.500", "-", "-", "0", "-"));
+  EXPECT_THAT(table.rows[1],
+              ElementsAre("1 car", "second", "-", "3.000", "1.500", "-", "-", "4", "-"));
+  EXPECT_EQ(table.rows[2][0], "2 car");
+  EXPECT_EQ(table.rows[2][1], "second");
+}
+
+TEST(RunComparison, TablesHaveACellForEveryColumn) {
+  const RunComparison comparison = compare(driven_run(2), driven_run(3), {});
+  for (const ComparisonTable& table : {vehicle_table(comparison), run_table(comparison)}) {
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.heading.size());
+  }
+}
+
+TEST(RunComparison, AsTextHasShortLinesAndEndsWithALineBreak) {
+  const std::string text = comparison_text(compare(driven_run(2), driven_run(2), {}));
+  EXPECT_TRUE(text.ends_with("\n"));
+  EXPECT_THAT(text, HasSubstr("\ncollisions "));
+  for (const std::string& line : split(text, '\n')) EXPECT_LE(line.size(), 120U) << line;
+}
+
+TEST(RunComparison, ARunThatDidNotStartIsCompared) {
+  ComparedRun standing = driven_run(1);
+  standing.facts.first_step.reset();
+  standing.rows.clear();
+  const RunComparison comparison = compare(std::move(standing), driven_run(1), {});
+  ASSERT_TRUE(comparison.first);
+  EXPECT_EQ(vehicle_table(comparison).rows.at(0).at(3), "-");
+}
+
+}  // namespace
+}  // namespace hlc::result
