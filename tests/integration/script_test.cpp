@@ -16,6 +16,7 @@
 #include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {
@@ -124,6 +125,13 @@ TEST_F(Scripts, RunLabTellsThatCarsAreStuckAtTheEnd) {
   EXPECT_EQ(log.find("stuck: vehicle 2", first + 1), std::string::npos) << "once";
 }
 
+/// The run within one process is the same.
+testing::AssertionResult is_replayed(const std::filesystem::path& run) {
+  const auto [exit_code, output] = run_program("replay --run " + run.string());
+  if (exit_code == 0) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << output;
+}
+
 TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
   const std::filesystem::path out = folder_ / "run";
   ChildProcess run = run_lab(
@@ -139,6 +147,7 @@ TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
   const auto summary = nlohmann::json::parse(read_text(out / "summary.json"), nullptr, false);
   ASSERT_TRUE(summary.is_object());
   EXPECT_EQ(summary["seed"], 10);
+  EXPECT_TRUE(is_replayed(out));
 }
 
 TEST_F(Scripts, DrawnCarsDriveRandomRoutesAndTheDrawIsKept) {
@@ -155,6 +164,7 @@ TEST_F(Scripts, DrawnCarsDriveRandomRoutesAndTheDrawIsKept) {
   ASSERT_TRUE(summary.is_object());
   ASSERT_EQ(summary["vehicles"].size(), 2U);
   EXPECT_TRUE(summary["vehicles"][0]["name"].get<std::string>().starts_with("path "));
+  EXPECT_TRUE(is_replayed(out));
 }
 
 /// Vertices of a report by the begin of the names of its problem files.

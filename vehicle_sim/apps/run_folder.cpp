@@ -50,6 +50,10 @@ void write_run_folder(const std::filesystem::path& folder, const scenario::Scena
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error(folder.string() + ": cannot be created");
   write_configuration(folder, scenario);
+  write_records(folder, experiment);
+}
+
+void write_records(const std::filesystem::path& folder, const closed_loop::Experiment& experiment) {
   for (const auto& [id, drive] : experiment.drives) {
     DriveRecorder file(record::drive_file(folder, id).string());
     for (const result::DrivenSample& sample : drive) file.write(sample);

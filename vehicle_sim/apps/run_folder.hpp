@@ -14,6 +14,10 @@ namespace hlc::apps {
 void write_run_folder(const std::filesystem::path& folder, const scenario::Scenario& scenario,
                       const closed_loop::Experiment& experiment);
 
+/// Its records only: run.json, reports.csv and vehicle_<id>.csv, in a folder that exists.
+/// @throws std::runtime_error naming the file that cannot be written
+void write_records(const std::filesystem::path& folder, const closed_loop::Experiment& experiment);
+
 /// True if such a folder exists and is complete.
 [[nodiscard]] bool is_whole_run_folder(const std::filesystem::path& folder);
 

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "hlc_bridge/hlc/hlc_core.hpp"
 #include "hlc_bridge/hlc/observation.hpp"
@@ -17,6 +20,7 @@
 #include "planner/common/demand.hpp"
 #include "planner/controller/joint_step.hpp"
 #include "planner/coordination/priority.hpp"
+#include "planner/policy/prepared_choice.hpp"
 #include "planner/policy/subgraph_selector.hpp"
 #include "vehicle_sim/closed_loop/stamps_of.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
@@ -57,6 +61,7 @@ class Lab {
       : settings_(settings_of(scenario, options.steps)),
         run_(settings_),
         rules_(options.rules),
+        forks_(options.forks),
         wall_clock_(or_zero(options.clocks.wall)),
         cpu_clock_(or_zero(options.clocks.cpu)) {
     const controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(scenario);
@@ -79,6 +84,8 @@ class Lab {
     }
     std::ranges::sort(members_, scenario.profile.strategies.plans_before,
                       [](const Member& member) { return VehicleId{member.id}; });
+    std::ranges::stable_sort(forks_, {}, &Fork::from);
+    prepare_requests();
   }
 
   Experiment drive() {
@@ -123,12 +130,15 @@ class Lab {
   void release(Nanoseconds t) {
     if (t % settings_.period == kListOffset) {
       answer_list(t);
-      for (const Member& member : members_) {
-        run_.ready({.source_id = middleware_name(member.id), .next_start = t + settings_.period});
+      for (const std::uint8_t id : settings_.vehicle_ids) {
+        run_.ready({.source_id = middleware_name(id), .next_start = t + settings_.period});
       }
     } else {
       const Nanoseconds from = wall_clock_();
       for (Member& member : members_) tick(member, t);
+      for (const VehicleId gone : gone_) {
+        run_.ready({.source_id = vehicle_name(gone.value), .next_start = t + kVehiclePeriod});
+      }
       experiment_.wall.vehicles_s += seconds_since(from);
     }
   }
@@ -149,8 +159,11 @@ class Lab {
   }
 
   void answer_list(Nanoseconds t_now) {
-    const std::vector<std::int32_t> active(settings_.vehicle_ids.begin(),
-                                           settings_.vehicle_ids.end());
+    const StepIndex step{step_at(t_now, settings_.period)};
+    if (start_) apply_forks(step);
+    std::vector<std::int32_t> active;
+    for (const Member& member : members_) active.push_back(member.id);
+    std::ranges::sort(active);
     states_.forget_before(t_now);
     const VehicleStateList list =
         middleware::compose_state_list(states_, t_now, settings_.period, active);
@@ -166,7 +179,80 @@ class Lab {
       if (reports[i].report.status == coordination::StepStatus::kStandby) continue;
       member.choice.end_step(member.hlc.controller(), reports[i].report);
     }
+    // Lab control ends a run in logical time when a process is gone.
+    for (const VehicleId gone : gone_) run_.report({.report = {.vehicle = gone, .step = step}});
   }
+
+  // ---- Forks
+
+  void prepare_requests() {
+    std::map<VehicleId, SubgraphRequest> so_far;
+    for (const Fork& fork : forks_) {
+      std::set<VehicleId> changed;
+      for (const Fork::Change& change : fork.changes) {
+        if (const auto* const labels = std::get_if<Fork::Labels>(&change)) {
+          so_far[labels->vehicle].labels = labels->labels;
+          changed.insert(labels->vehicle);
+        } else if (const auto* const speed = std::get_if<Fork::MaxSpeed>(&change)) {
+          so_far[speed->vehicle].max_speed_mps = speed->max_speed_mps;
+          changed.insert(speed->vehicle);
+        }
+      }
+      for (const VehicleId vehicle : changed) {
+        const Member& member = member_of(vehicle);
+        const controller::ControllerOptions& options = member.hlc.controller().options();
+        requests_[{fork.from, vehicle}] = std::make_shared<const policy::PreparedChoice>(
+            member.choice.base(), so_far.at(vehicle), member.choice.limits_mps(),
+            options.horizon_steps, options.search);
+      }
+    }
+  }
+
+  Member& member_of(VehicleId vehicle) {
+    return *std::ranges::find(members_, vehicle.value, &Member::id);
+  }
+
+  /// Applies what changes from this step on. @pre the experiment has begun
+  void apply_forks(StepIndex step) {
+    for (const Fork& fork : forks_) {
+      if (start_->value + fork.from != step.value) continue;
+      for (const Fork::Change& change : fork.changes) {
+        std::visit([&](const auto& one) { apply(one, step); }, change);
+      }
+    }
+    for (const auto& [at, request] : requests_) {
+      if (start_->value + at.first == step.value) member_of(at.second).choice.ask(request);
+    }
+  }
+
+  void apply(const Fork::Priorities& change, StepIndex /*step*/) {
+    const coordination::PriorityRule plans_before(change.first);
+    for (Member& member : members_) {
+      controller::Controller& controller = member.hlc.controller();
+      controller.coordinate_by(plans_before, controller.options().strategies.coordination);
+    }
+    std::ranges::sort(members_, std::cref(plans_before),
+                      [](const Member& member) { return VehicleId{member.id}; });
+  }
+  void apply(const Fork::Coordination& change, StepIndex /*step*/) {
+    for (Member& member : members_) {
+      controller::Controller& controller = member.hlc.controller();
+      controller.coordinate_by(controller.options().strategies.plans_before, change.rule);
+    }
+  }
+  void apply(const Fork::Without& change, StepIndex /*step*/) {
+    std::erase_if(members_, [&](const Member& one) { return one.id == change.vehicle.value; });
+    gone_.insert(change.vehicle);
+  }
+  void apply(const Fork::Lost& change, StepIndex step) {
+    rules_.is_lost = [former = rules_.is_lost, change, step](const controller::Delivery& one) {
+      const bool is_now = one.step >= step && one.step.value < step.value + change.steps;
+      return (is_now && one.from == change.from && one.to == change.to) || (former && former(one));
+    };
+  }
+  /// In requests_.
+  void apply(const Fork::Labels& /*change*/, StepIndex /*step*/) {}
+  void apply(const Fork::MaxSpeed& /*change*/, StepIndex /*step*/) {}
 
   /// In the order of the members.
   std::vector<ReportRecord> step_controllers(const VehicleStateList& list) {
@@ -180,7 +266,10 @@ class Lab {
                begins;
     }
     observation.present = observation.active;
-    if (begins && !start_) start_ = observation.step;
+    if (begins && !start_) {
+      start_ = observation.step;
+      apply_forks(*start_);
+    }
     std::vector<ReportRecord> records(members_.size());
     for (std::size_t i = 0; i < members_.size(); ++i) {
       Member& member = members_[i];
@@ -237,6 +326,10 @@ class Lab {
       member.vehicle.brake();
       member.is_stop_requested = true;
     }
+    for (const VehicleId gone : gone_) {
+      alive_.erase(vehicle_name(gone.value));
+      lost_.insert(vehicle_name(gone.value));
+    }
   }
 
   void write_facts() {
@@ -256,6 +349,10 @@ class Lab {
   lab_control::LabRunSettings settings_;
   lab_control::LogicalRun run_;
   controller::JointStepRules rules_;
+  std::vector<Fork> forks_;
+  std::map<std::pair<std::uint64_t, VehicleId>, std::shared_ptr<const policy::PreparedChoice>>
+      requests_;  ///< by the step of the experiment from which they hold, with all changes so far
+  std::set<VehicleId> gone_;
   std::function<Nanoseconds()> wall_clock_;
   std::function<Nanoseconds()> cpu_clock_;
   std::vector<Member> members_;  ///< in the order of priorities

@@ -8,6 +8,7 @@
 #include "hlc_bridge/result/run_record.hpp"
 #include "planner/controller/joint_step.hpp"
 #include "planner/scenario/scenario.hpp"
+#include "vehicle_sim/closed_loop/fork.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 namespace hlc::closed_loop {
@@ -29,6 +30,7 @@ struct ExperimentOptions {
   Clocks clocks{};
   /// Disturbances of the controllers' steps. Default: no losses, no delays.
   controller::JointStepRules rules{};
+  std::vector<Fork> forks{};  ///< @pre check_forks throws nothing
 };
 
 /// Wall time of a run by part. The rest of RunFacts::wall_s: state lists, commands, lab control,
@@ -57,6 +59,8 @@ struct Experiment {
 /// All middlewares receive the same, so one buffer represents all of theirs.
 ///
 /// @pre the automaton's step is a multiple of the vehicles' tick (20 ms)
+/// @throws std::invalid_argument with one line, before the run begins: maneuvers or a speed of a
+/// fork that the automaton has no subgraph for
 [[nodiscard]] Experiment drive_experiment(const scenario::Scenario& scenario,
                                           const ExperimentOptions& options);
 

@@ -1,0 +1,124 @@
+// The program with runs that it drives again, and with what it must refuse.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <regex>
+#include <string>
+
+#include "planner/common/text_file.hpp"
+#include "tests/support/folders.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "vehicle_sim/apps/run_folder.hpp"
+
+namespace hlc::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A run of 40 steps, in a folder as processes write it.
+class Replay : public testing::Test {
+ protected:
+  void SetUp() override {
+    const scenario::Scenario scenario = scenario::read_scenario(
+        {.file = test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
+    write_run_folder(run(), scenario, closed_loop::drive_experiment(scenario, {.steps = 40}));
+  }
+
+  [[nodiscard]] fs::path run() const { return folder_.path() / "one"; }
+  [[nodiscard]] static test::Outcome replay(const fs::path& run, const std::string& flags) {
+    return test::run_program("replay --run " + run.string() + " " + flags);
+  }
+  [[nodiscard]] test::Outcome replay(const std::string& flags) const {
+    return replay(run(), flags);
+  }
+  void change(const std::string& file, const std::string& old, const std::string& by) const {
+    const std::string text = read_file(run() / file);
+    ASSERT_NE(text.find(old), std::string::npos) << file;
+    write_file(run() / file, std::regex_replace(text, std::regex(old), by,
+                                                std::regex_constants::format_first_only));
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(Replay, GivesTheSameTraceAndUntilAStepTheSameUpToThere) {
+  for (const std::string flags : {"", "--until 17"}) {
+    const auto [exit_code, output] = replay(flags);
+    EXPECT_EQ(exit_code, 0) << output;
+    EXPECT_THAT(output, HasSubstr("bitwise identical: trace_sha256 "));
+  }
+}
+
+TEST_F(Replay, OfARecordThatWasChangedNamesStepVehicleAndWhat) {
+  change("reports.csv", ",planned,", ",fallback,");
+  const auto [exit_code, output] = replay("");
+  EXPECT_EQ(exit_code, 1) << output;
+  EXPECT_THAT(output, HasSubstr("differs (record and replay) first at step 0 (0.0 s), vehicle 1"));
+  EXPECT_THAT(output, HasSubstr("fallback"));
+}
+
+TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
+  const auto [exit_code, output] = replay("--from 10 --set priorities=3,2 --set speed=1:0.5");
+  ASSERT_EQ(exit_code, 0) << output;
+  EXPECT_THAT(output, HasSubstr("from step 10 on: priorities=3,2, speed=1:0.5"));
+  EXPECT_THAT(output, HasSubstr("parts (run and fork) at step 10 (2.0 s)"));
+  const fs::path fork = folder_.path() / "one_from_10";
+  EXPECT_THAT(replay(fork, "").output, HasSubstr("bitwise identical"));
+  const fs::path second = folder_.path() / "second";
+  const test::Outcome forked = replay(fork, "--from 20 --set without=2 --out " + second.string());
+  ASSERT_EQ(forked.exit_code, 0) << forked.output;
+  EXPECT_THAT(forked.output, HasSubstr("at step 20 (4.0 s)"));
+  EXPECT_THAT(replay(second, "").output, HasSubstr("bitwise identical"));
+  const test::Outcome result = test::run_program("summarize --run " + second.string());
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+}
+
+TEST_F(Replay, OfARunThatEndedEarlyComparesWhatIsRecorded) {
+  const std::string reports = read_file(run() / "reports.csv");
+  std::ofstream(run() / "reports.csv") << reports.substr(0, reports.find("\n20,") + 1);
+  const auto [exit_code, output] = replay("");
+  EXPECT_EQ(exit_code, 0) << output;
+  EXPECT_THAT(output, HasSubstr("of 40 steps are recorded"));
+}
+
+TEST_F(Replay, RefusesWhatItCannotDriveInOneLineAndLeavesNoFolder) {
+  struct Bad {
+    std::string flags;
+    std::string named;
+  };
+  for (const auto& [flags, named] :
+       {Bad{"--from 40", "must be less than the run's 40 steps"},
+        Bad{"--from 3 --set without=9", "1, 2, 3"}, Bad{"--set without=1", "--from"},
+        Bad{"--from 3 --set criteria=1:J9", "J9"}, Bad{"--from 3 --until 2", "2 steps"},
+        Bad{"--out /tmp/x", "--from"}, Bad{"--until 0", "--until"},
+        Bad{"--from 3 --out " + run().string(), "new or empty"}, Bad{"--speed 3", "--speed"}}) {
+    const auto [exit_code, output] = replay(flags);
+    EXPECT_EQ(exit_code, 2) << flags << '\n' << output;
+    EXPECT_THAT(output, HasSubstr(named));
+    EXPECT_EQ(std::ranges::count(output, '\n'), 1) << output;
+    EXPECT_FALSE(fs::exists(folder_.path() / "one_from_3")) << flags;
+  }
+}
+
+TEST_F(Replay, OfARunInRealTimeIsRefused) {
+  change("run.json", "\"simulated_time\": true", "\"simulated_time\": false");
+  const auto [exit_code, output] = replay("");
+  EXPECT_EQ(exit_code, 2);
+  EXPECT_THAT(output, HasSubstr("logical time"));
+}
+
+TEST(ReplayProgram, OfAFolderThatIsNoRunIsRefusedAndHelpNamesTheExitCodes) {
+  const auto [exit_code, output] = test::run_program("replay --run /tmp");
+  EXPECT_EQ(exit_code, 2);
+  EXPECT_THAT(output, HasSubstr("no run folder"));
+  EXPECT_THAT(test::run_program("replay --help").output, HasSubstr("Exit codes"));
+}
+
+}  // namespace
+}  // namespace hlc::apps

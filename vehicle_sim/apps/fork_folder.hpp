@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/record/run_folder.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
+
+namespace hlc::apps {
+
+/// What the run was driven with, for the same drive within one process; its forks included.
+/// @throws std::invalid_argument with one line: a run in real time (it depends on when messages
+/// arrived), or flags.yaml with a bad value
+[[nodiscard]] closed_loop::ExperimentOptions options_of_run(const record::RunFolder& run);
+
+/// The run folder of a fork.
+/// @param out  as given; empty: beside the run, named after it and the step
+/// @throws std::invalid_argument if it exists and is not empty
+[[nodiscard]] std::filesystem::path fork_folder(const record::RunFolder& run, std::uint64_t from,
+                                                const std::filesystem::path& out);
+
+/// Writes it: the records, and the configuration of the run that it comes from with one more entry
+/// of the list `forks` in flags.yaml (`from`, the step, and `set`, the texts of its changes).
+/// @throws std::runtime_error naming what cannot be written
+void write_fork(const std::filesystem::path& folder, const record::RunFolder& run,
+                std::uint64_t from, const std::vector<std::string>& set,
+                const closed_loop::Experiment& experiment);
+
+}  // namespace hlc::apps

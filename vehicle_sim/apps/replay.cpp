@@ -1,0 +1,167 @@
+// Drives a run of logical time again, in one process: the same, or with something changed from a
+// step on.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/record/program.hpp"
+#include "hlc_bridge/record/run_folder.hpp"
+#include "hlc_bridge/result/first_difference.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
+#include "hlc_bridge/result/summary_table.hpp"
+#include "hlc_bridge/result/trace_hash.hpp"
+#include "planner/apps/flags.hpp"
+#include "vehicle_sim/apps/clocks.hpp"
+#include "vehicle_sim/apps/fork_folder.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
+
+namespace {
+
+constexpr int kExitDiffers = 1;
+
+struct Choices {
+  std::filesystem::path run;
+  std::optional<std::uint64_t> until;
+  std::optional<std::uint64_t> from;
+  std::vector<std::string> set;
+  std::filesystem::path out;
+};
+
+using Rows = std::vector<hlc::result::StepRecord>;
+
+/// The rows of the steps before this one.
+Rows before(Rows rows, std::uint64_t step) {
+  std::erase_if(rows, [step](const hlc::result::StepRecord& row) { return row.step >= step; });
+  return rows;
+}
+
+std::string in_words(const hlc::result::Difference& difference, double step_s) {
+  return fmt::format("step {} ({:.1f} s), vehicle {}: {}", difference.step,
+                     step_s * static_cast<double>(difference.step), difference.vehicle.value,
+                     difference.text);
+}
+
+/// Steps of which all vehicles' rows are recorded, at most those that were requested.
+std::uint64_t recorded_steps(const hlc::record::RunFolder& run) {
+  return run.rows.empty() ? 0 : run.rows.back().step + 1;
+}
+
+void drove(std::uint64_t steps, std::size_t vehicles, double run_s, double wall_s) {
+  std::cout << fmt::format("drove {} steps of {} vehicles in {:.2f} s ({:.0f} times real time)\n",
+                           steps, vehicles, wall_s, run_s / wall_s);
+}
+
+int compare_with(const hlc::record::RunFolder& recorded, const Rows& rows, std::uint64_t steps) {
+  const Rows expected = before(recorded.rows, steps);
+  const std::uint64_t until = std::min(steps, recorded_steps(recorded));
+  const Rows driven = before(rows, until);
+  if (until < steps) {
+    std::cout << fmt::format("{} of {} steps are recorded{}\n", until, steps,
+                             recorded.facts.reason.empty() ? "" : ": " + recorded.facts.reason);
+  }
+  const auto difference = hlc::result::first_difference(expected, driven);
+  if (!difference) {
+    std::cout << "bitwise identical: trace_sha256 " << hlc::result::trace_sha256(driven)
+              << '\n';
+    return hlc::kExitGood;
+  }
+  std::cout << "differs (record and replay) first at "
+            << in_words(*difference, recorded.description.step_s) << '\n'
+            << "trace_sha256: recorded " << hlc::result::trace_sha256(expected) << ", replayed "
+            << hlc::result::trace_sha256(driven) << '\n';
+  return kExitDiffers;
+}
+
+void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choices,
+                   const hlc::closed_loop::Experiment& experiment, const Rows& rows,
+                   std::uint64_t steps) {
+  std::cout << fmt::format(
+      "from step {} on: {}\n", *choices.from,
+      choices.set.empty() ? "nothing changed" : fmt::format("{}", fmt::join(choices.set, ", ")));
+  const std::uint64_t until = std::min(steps, recorded_steps(recorded));
+  const auto difference =
+      hlc::result::first_difference(before(recorded.rows, until), before(rows, until));
+  if (difference) {
+    std::cout << "parts (run and fork) at " << in_words(*difference, recorded.description.step_s)
+              << "\n\n";
+  } else {
+    std::cout << "the fork is the same as the run: trace_sha256 "
+              << hlc::result::trace_sha256(before(rows, until)) << "\n\n";
+  }
+  hlc::result::RunSummary summary =
+      hlc::result::summarize(recorded.description, experiment.facts, rows, experiment.drives);
+  summary.revision = hlc::program_revision();
+  summary.host = hlc::record::this_host();
+  std::cout << hlc::result::summary_table(summary);
+}
+
+int replay(const Choices& choices) {
+  const hlc::record::RunFolder recorded = hlc::record::read_run_folder(choices.run);
+  hlc::closed_loop::ExperimentOptions options = hlc::apps::options_of_run(recorded);
+  options.clocks = hlc::apps::machine_clocks();
+  if (choices.until) options.steps = std::min(options.steps, *choices.until);
+  std::filesystem::path folder;
+  if (choices.from) {
+    hlc::closed_loop::Fork fork{.from = *choices.from, .changes = {}};
+    for (const std::string& text : choices.set) {
+      fork.changes.push_back(hlc::closed_loop::change_from_text(text, recorded.scenario));
+    }
+    options.forks.push_back(fork);
+    hlc::closed_loop::check_forks(options.forks, recorded.scenario, options.steps);
+    folder = hlc::apps::fork_folder(recorded, *choices.from, choices.out);
+  }
+  const hlc::closed_loop::Experiment experiment =
+      hlc::closed_loop::drive_experiment(recorded.scenario, options);
+  const Rows rows =
+      hlc::result::step_records(experiment.reports, experiment.drives, experiment.facts);
+  drove(options.steps, recorded.scenario.vehicles.size(),
+        recorded.description.step_s * static_cast<double>(options.steps), experiment.facts.wall_s);
+  if (!choices.from) return compare_with(recorded, rows, options.steps);
+  hlc::apps::write_fork(folder, recorded, *choices.from, choices.set, experiment);
+  describe_fork(recorded, choices, experiment, rows, options.steps);
+  std::cout << fmt::format(
+      "\nrun folder: {0}\nits page: summarize --run {0}\nside by side: compare {1} {0}\n",
+      folder.string(), choices.run.string());
+  return hlc::kExitGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Drives a run of logical time again in one process. The same run must give the same "
+      "trace_sha256; with --from and --set it is a \"what if\" with a run folder of its own.",
+      "replay"};
+  Choices choices;
+  app.add_option("--run", choices.run, "run folder")->required();
+  app.add_option("--until", choices.until, "only the steps before this one")
+      ->check(hlc::apps::whole(1, 100000));
+  CLI::Option* const from =
+      app.add_option("--from", choices.from, "step from which something is different; from 0")
+          ->check(hlc::apps::whole(0, 100000));
+  app.add_option("--set", choices.set,
+                 std::string("what is different then; may be given several times:\n") +
+                     hlc::closed_loop::kChangeForms)
+      ->needs(from)
+      ->allow_extra_args(false);
+  app.add_option("--out", choices.out,
+                 "folder of the fork, new or empty; default: the run's name with _from_STEP")
+      ->needs(from);
+  app.footer(
+      "Example: what if car 2 had gone first?\n"
+      "  replay --run runs/one --from 40 --set priorities=2\n"
+      "Exit codes: 0 the same run, or a fork was driven; 1 the replay differs from the record; 2 "
+      "invalid input or an output that cannot be written.");
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  return hlc::apps::exit_code_of(
+      "replay", [&] { return replay(choices); }, hlc::kExitBadInput);
+}

@@ -1,0 +1,185 @@
+#include "vehicle_sim/closed_loop/fork.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "planner/common/yaml_text.hpp"
+#include "planner/scenario/profile.hpp"
+
+namespace hlc::closed_loop {
+namespace {
+
+constexpr std::uint64_t kMostLostSteps = 100'000;
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts{""};
+  for (const char letter : text) {
+    if (letter == at) {
+      parts.emplace_back();
+    } else {
+      parts.back() += letter;
+    }
+  }
+  return parts;
+}
+
+template <class Number>
+std::optional<Number> number_in(const std::string& text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
+}
+
+/// Reads the text of one change.
+class ChangeText {
+ public:
+  ChangeText(const std::string& text, const scenario::Scenario& scenario)
+      : text_(text), scenario_(scenario) {
+    const std::size_t at = text.find('=');
+    key_ = text.substr(0, at);
+    if (at != std::string::npos) value_ = text.substr(at + 1);
+  }
+
+  [[nodiscard]] Fork::Change read() const {
+    if (key_ == "priorities") return priorities();
+    if (key_ == "coordination") return coordination();
+    if (key_ == "criteria") return labels();
+    if (key_ == "speed") return max_speed();
+    if (key_ == "without") return Fork::Without{vehicle(value_)};
+    if (key_ == "lost") return lost();
+    refuse("priorities=, coordination=, criteria=, speed=, without= or lost=");
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& allowed) const {
+    throw std::invalid_argument(
+        fmt::format("--set: '{}', must be {}", one_line(text_, 80), allowed));
+  }
+
+  [[nodiscard]] VehicleId vehicle(const std::string& text) const {
+    const auto id = number_in<std::uint8_t>(text);
+    const auto has_id = [&](const scenario::ScenarioVehicle& one) { return one.id.value == *id; };
+    if (id && std::ranges::any_of(scenario_.vehicles, has_id)) return {*id};
+    std::vector<int> ids;
+    for (const scenario::ScenarioVehicle& one : scenario_.vehicles) ids.push_back(one.id.value);
+    refuse(fmt::format("of vehicles of the run: {}", fmt::join(ids, ", ")));
+  }
+
+  /// The parts of the value before and after a letter.
+  [[nodiscard]] std::pair<std::string, std::string> halves(char at,
+                                                           const std::string& allowed) const {
+    const std::size_t place = value_.find(at);
+    if (place == std::string::npos) refuse(allowed);
+    return {value_.substr(0, place), value_.substr(place + 1)};
+  }
+
+  [[nodiscard]] Fork::Priorities priorities() const {
+    Fork::Priorities result;
+    for (const std::string& id : split(value_, ',')) {
+      result.first.push_back(vehicle(id));
+      if (std::ranges::count(result.first, result.first.back()) > 1) {
+        refuse("an order in which no vehicle stands twice");
+      }
+    }
+    return result;
+  }
+
+  [[nodiscard]] Fork::Coordination coordination() const {
+    const auto found = scenario::coordination_rules().find(value_);
+    if (found != scenario::coordination_rules().end()) return {found->second};
+    refuse("coordination=cooperative, strict or agreed");
+  }
+
+  [[nodiscard]] Fork::Labels labels() const {
+    const auto [id, labels] = halves(':', "criteria=VEHICLE:CRITERION, several joined by +");
+    return {.vehicle = vehicle(id), .labels = split(labels, '+')};
+  }
+
+  [[nodiscard]] Fork::MaxSpeed max_speed() const {
+    const std::string allowed = "speed=VEHICLE:SPEED with a speed above 0 in m/s";
+    const auto [id, speed] = halves(':', allowed);
+    const auto mps = number_in<double>(speed);
+    if (!mps || !(*mps > 0.0) || *mps > 100.0) refuse(allowed);
+    return {.vehicle = vehicle(id), .max_speed_mps = *mps};
+  }
+
+  [[nodiscard]] Fork::Lost lost() const {
+    const auto [from, rest] = halves('>', "lost=VEHICLE>VEHICLE or lost=VEHICLE>VEHICLE:STEPS");
+    const std::vector<std::string> to_and_steps = split(rest, ':');
+    Fork::Lost result{.from = vehicle(from), .to = vehicle(to_and_steps.front())};
+    if (to_and_steps.size() == 1) return result;
+    const auto steps = number_in<std::uint64_t>(to_and_steps[1]);
+    if (to_and_steps.size() > 2 || !steps || *steps == 0 || *steps > kMostLostSteps) {
+      refuse(fmt::format("lost for 1 ... {} steps", kMostLostSteps));
+    }
+    result.steps = *steps;
+    return result;
+  }
+
+  const std::string& text_;
+  const scenario::Scenario& scenario_;
+  std::string key_;
+  std::string value_;
+};
+
+/// The vehicle that a change is for.
+std::optional<VehicleId> vehicle_of(const Fork::Change& change) {
+  if (const auto* const one = std::get_if<Fork::Labels>(&change)) return one->vehicle;
+  if (const auto* const one = std::get_if<Fork::MaxSpeed>(&change)) return one->vehicle;
+  if (const auto* const one = std::get_if<Fork::Without>(&change)) return one->vehicle;
+  return std::nullopt;
+}
+
+void check_is_there(const Fork::Change& change, const std::set<VehicleId>& gone) {
+  const std::optional<VehicleId> vehicle = vehicle_of(change);
+  if (!vehicle || !gone.contains(*vehicle)) return;
+  throw std::invalid_argument(
+      fmt::format("--set: vehicle {}, must be one that is still there", vehicle->value));
+}
+
+}  // namespace
+
+Fork::Change change_from_text(const std::string& text, const scenario::Scenario& scenario) {
+  return ChangeText(text, scenario).read();
+}
+
+void check_forks(const std::vector<Fork>& forks, const scenario::Scenario& scenario,
+                 std::uint64_t steps) {
+  std::set<VehicleId> gone;
+  for (const Fork& fork : forks) {
+    if (fork.from >= steps) {
+      throw std::invalid_argument(
+          fmt::format("--from = {}, must be less than the run's {} steps", fork.from, steps));
+    }
+    for (const Fork::Change& change : fork.changes) {
+      check_is_there(change, gone);
+      const auto* const rule = std::get_if<Fork::Coordination>(&change);
+      if (rule != nullptr && rule->rule.commit.needs_votes &&
+          scenario.rounds == controller::Rounds::kTwo) {
+        throw std::invalid_argument(
+            "--set: coordination=agreed, must be cooperative or strict in a run of two rounds");
+      }
+      const auto* const without = std::get_if<Fork::Without>(&change);
+      if (without == nullptr) continue;
+      if (fork.from == 0) {
+        throw std::invalid_argument(
+            "--from = 0, must be at least 1 with --set without=: a scenario without the vehicle is "
+            "another one");
+      }
+      gone.insert(without->vehicle);
+      if (gone.size() == scenario.vehicles.size()) {
+        throw std::invalid_argument("--set: without=, must leave at least one vehicle");
+      }
+    }
+  }
+}
+
+}  // namespace hlc::closed_loop
