@@ -239,14 +239,15 @@ std::string legend(const RunComparison& comparison) {
   html += sample(fmt::format(fmt::runtime(line), "a", neutral), "first run");
   html += sample(fmt::format(fmt::runtime(line), "b", neutral), "second run");
   if (comparison.first) {
-    html += sample(R"(<circle class="mark" cx="17" cy="7" r="5"/>)", "first difference");
+    html += sample(R"(<circle class="mark" cx="17" cy="7" r="5"/>)",
+                   fmt::format("first difference, vehicle {}", comparison.first->vehicle.value));
   }
   std::size_t number = 0;
   for (const std::uint8_t id : vehicle_ids(comparison)) {
     html += sample(fmt::format(fmt::runtime(line), "car", stroke(number++)),
                    fmt::format("vehicle {}", id));
   }
-  return html + "</p>\n";
+  return html + "Numbers stand where the vehicles start.</p>\n";
 }
 
 std::string picture_html(const RunComparison& comparison,
