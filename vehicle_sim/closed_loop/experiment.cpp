@@ -62,6 +62,7 @@ class Lab {
         run_(settings_),
         rules_(options.rules),
         forks_(options.forks),
+        after_step_(options.after_step),
         wall_clock_(or_zero(options.clocks.wall)),
         cpu_clock_(or_zero(options.clocks.cpu)) {
     const controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(scenario);
@@ -176,6 +177,7 @@ class Lab {
       reports[i].report = high_level_controller::with_answer(std::move(reports[i].report), answer);
       member.hlc.controller().note_causes(reports[i].report);
       report(reports[i]);
+      if (after_step_) after_step_(member.hlc.controller());
       if (reports[i].report.status == coordination::StepStatus::kStandby) continue;
       member.choice.end_step(member.hlc.controller(), reports[i].report);
     }
@@ -350,6 +352,7 @@ class Lab {
   lab_control::LogicalRun run_;
   controller::JointStepRules rules_;
   std::vector<Fork> forks_;
+  std::function<void(const controller::Controller&)> after_step_;
   std::map<std::pair<std::uint64_t, VehicleId>, std::shared_ptr<const policy::PreparedChoice>>
       requests_;  ///< by the step of the experiment from which they hold, with all changes so far
   std::set<VehicleId> gone_;

@@ -31,6 +31,8 @@ struct ExperimentOptions {
   /// Disturbances of the controllers' steps. Default: no losses, no delays.
   controller::JointStepRules rules{};
   std::vector<Fork> forks{};  ///< @pre check_forks throws nothing
+  /// Receives each controller at the end of its step, once its report is complete. May be absent.
+  std::function<void(const controller::Controller&)> after_step{};
 };
 
 /// Wall time of a run by part. The rest of RunFacts::wall_s: state lists, commands, lab control,

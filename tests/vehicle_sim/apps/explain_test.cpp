@@ -1,0 +1,93 @@
+// The program with steps of a run, and with what it must refuse.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "tests/support/folders.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "vehicle_sim/apps/run_folder.hpp"
+
+namespace hlc::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Ten cars on the lab's network, 12 steps.
+class Explain : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const scenario::Scenario scenario = scenario::read_scenario(
+        {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml",
+         .cars = 10,
+         .seed = 3});
+    experiment() = closed_loop::drive_experiment(scenario, {.steps = 12});
+    write_run_folder(run(), scenario, experiment());
+  }
+  static void TearDownTestSuite() { fs::remove_all(run()); }
+
+  [[nodiscard]] static closed_loop::Experiment& experiment() {
+    static closed_loop::Experiment experiment;
+    return experiment;
+  }
+  [[nodiscard]] static const test::TemporaryFolder& folder() {
+    static const test::TemporaryFolder folder;
+    return folder;
+  }
+  [[nodiscard]] static fs::path run() { return folder().path() / "run"; }
+  [[nodiscard]] static test::Outcome explain(const std::string& flags) {
+    return test::run_program("explain --run " + run().string() + " " + flags);
+  }
+};
+
+TEST_F(Explain, EveryStepInWhichAVehicleWaitsNamesForWhichAndWhatItWouldDoWithoutAllOthers) {
+  std::size_t num_waiting = 0;
+  for (const ReportRecord& record : experiment().reports) {
+    const coordination::Report& report = record.report;
+    if (report.waiting.vehicles.empty() || num_waiting == 1) continue;
+    const std::uint64_t step = report.step.value - *experiment().facts.first_step;
+    if (step == 0) continue;
+    ++num_waiting;
+    const auto [exit_code, output] = explain("--vehicle " + std::to_string(report.vehicle.value) +
+                                             " --step " + std::to_string(step));
+    EXPECT_EQ(exit_code, 0) << output;
+    EXPECT_THAT(output,
+                HasSubstr("waiting for " + std::to_string(report.waiting.vehicles[0].value)));
+    EXPECT_THAT(output, HasSubstr("\nalone           a new plan "));
+  }
+  EXPECT_GT(num_waiting, 0U);
+}
+
+TEST_F(Explain, TheProblemsOfTheStepCanBeSolvedAgain) {
+  const fs::path problems = folder().path() / "problems";
+  const test::Outcome outcome = explain("--vehicle 1 --step 10 --problems " + problems.string());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  ASSERT_FALSE(fs::is_empty(problems));
+  const fs::path file = fs::directory_iterator(problems)->path();
+  const test::Outcome planned = test::run_program("plan_problem " + file.string());
+  EXPECT_EQ(planned.exit_code, 0) << planned.output;
+}
+
+TEST_F(Explain, RefusesInOneLine) {
+  struct Bad {
+    std::string flags;
+    std::string named;
+  };
+  for (const auto& [flags, named] :
+       {Bad{"--vehicle 12 --step 3", "1, 2, 3, 4, 5"}, Bad{"--vehicle 2 --step 12", "last is 11"},
+        Bad{"--vehicle 2", "--step"}, Bad{"--vehicle 0 --step 1", "--vehicle"},
+        Bad{"--vehicle 2 --step 1 --colour red", "--colour"},
+        Bad{"--vehicle 2 --step 1 --problems /proc/no", "--dump-problems"}}) {
+    const auto [exit_code, output] = explain(flags);
+    EXPECT_EQ(exit_code, 2) << flags << '\n' << output;
+    EXPECT_THAT(output, HasSubstr(named));
+    EXPECT_EQ(std::ranges::count(output, '\n'), 1) << output;
+  }
+}
+
+}  // namespace
+}  // namespace hlc::apps

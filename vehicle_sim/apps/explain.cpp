@@ -1,0 +1,201 @@
+// Why a vehicle did what it did in a step of a run in logical time.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/record/run_folder.hpp"
+#include "hlc_bridge/result/first_difference.hpp"
+#include "planner/apps/flags.hpp"
+#include "planner/controller/controller.hpp"
+#include "planner/scenario/problem_dump.hpp"
+#include "vehicle_sim/apps/explanation.hpp"
+#include "vehicle_sim/apps/fork_folder.hpp"
+#include "vehicle_sim/closed_loop/experiment.hpp"
+
+namespace {
+
+using hlc::VehicleId;
+using Rows = std::vector<hlc::result::StepRecord>;
+
+struct Choices {
+  std::filesystem::path run;
+  std::uint8_t vehicle{};
+  std::uint64_t step{};
+  std::filesystem::path problems;
+};
+
+/// The report of the vehicle in the step; nullptr: there is none.
+const hlc::coordination::Report* report_of(const Rows& rows, const Choices& choices) {
+  const auto found = std::ranges::find_if(rows, [&](const hlc::result::StepRecord& row) {
+    return row.step == choices.step && row.record.report.vehicle.value == choices.vehicle;
+  });
+  return found == rows.end() ? nullptr : &found->record.report;
+}
+
+/// Way that the plan in force leads from t(k+1) on.
+double ahead_m(const hlc::controller::Controller& controller) {
+  const hlc::coordination::Plan& plan = controller.plan_in_force();
+  double sum_m = 0.0;
+  for (hlc::StepIndex step{controller.last_step().value + 1}; step < plan.end(); ++step.value) {
+    const hlc::Point next_m = plan.pose_at({step.value + 1}).position_m();
+    sum_m += (next_m - plan.pose_at(step).position_m()).norm();
+  }
+  return sum_m;
+}
+
+struct Driven {
+  Rows rows;
+  hlc::apps::StepOutcome outcome;  ///< of the vehicle in the step
+};
+
+/// Drives the run up to the step, and with some vehicles gone from the step on.
+class Drives {
+ public:
+  Drives(const hlc::record::RunFolder& run, const Choices& choices)
+      : run_(run), choices_(choices), options_(hlc::apps::options_of_run(run)) {
+    options_.steps = choices.step + 1;
+    std::erase_if(options_.forks,
+                  [&](const hlc::closed_loop::Fork& fork) { return fork.from > choices.step; });
+  }
+
+  /// @param dump  receives the planning problems; may be nullptr
+  [[nodiscard]] Driven as_it_was(const hlc::scenario::ProblemDump* dump) const {
+    return drive(options_, dump);
+  }
+
+  [[nodiscard]] hlc::apps::ExplainedStep::Without without(std::vector<VehicleId> gone) const {
+    hlc::closed_loop::ExperimentOptions options = options_;
+    hlc::closed_loop::Fork fork{.from = choices_.step, .changes = {}};
+    for (const VehicleId one : gone)
+      fork.changes.emplace_back(hlc::closed_loop::Fork::Without{one});
+    options.forks.push_back(std::move(fork));
+    return {.gone = std::move(gone), .outcome = drive(std::move(options), nullptr).outcome};
+  }
+
+ private:
+  [[nodiscard]] Driven drive(hlc::closed_loop::ExperimentOptions options,
+                             const hlc::scenario::ProblemDump* dump) const {
+    Driven driven;
+    options.after_step = [&](const hlc::controller::Controller& controller) {
+      const std::uint64_t step = controller.last_step().value - *run_.facts.first_step;
+      if (step != choices_.step || controller.options().vehicle.value != choices_.vehicle) return;
+      driven.outcome.ahead_m = controller.has_plan() ? ahead_m(controller) : 0.0;
+      if (dump != nullptr) dump->write(controller);
+    };
+    const hlc::closed_loop::Experiment experiment =
+        hlc::closed_loop::drive_experiment(run_.scenario, options);
+    driven.rows =
+        hlc::result::step_records(experiment.reports, experiment.drives, experiment.facts);
+    if (const auto* const report = report_of(driven.rows, choices_)) {
+      driven.outcome.report = *report;
+    }
+    return driven;
+  }
+
+  const hlc::record::RunFolder& run_;
+  const Choices& choices_;
+  hlc::closed_loop::ExperimentOptions options_;
+};
+
+void check_choices(const hlc::record::RunFolder& run, const Choices& choices) {
+  const std::vector<std::uint8_t>& ids = run.facts.vehicle_ids;
+  if (std::ranges::find(ids, choices.vehicle) == ids.end()) {
+    throw std::invalid_argument(
+        fmt::format("--vehicle = {}, must be one of {}", choices.vehicle, fmt::join(ids, ", ")));
+  }
+  if (report_of(run.rows, choices) != nullptr) return;
+  throw std::invalid_argument(
+      fmt::format("--step = {}, must be one with a report of vehicle {}; the run's last is {}",
+                  choices.step, choices.vehicle, run.rows.empty() ? 0 : run.rows.back().step));
+}
+
+/// Vehicles that had a report in the step, without the explained one.
+std::vector<VehicleId> others_in(const Rows& rows, const Choices& choices) {
+  std::vector<VehicleId> others;
+  for (const hlc::result::StepRecord& row : rows) {
+    const VehicleId vehicle = row.record.report.vehicle;
+    if (row.step == choices.step && vehicle.value != choices.vehicle) others.push_back(vehicle);
+  }
+  return others;
+}
+
+/// Those that may have changed the step: coupled, missing, waited for, or in the way of the plan.
+std::vector<VehicleId> that_may_matter(const hlc::coordination::Report& report,
+                                       const std::vector<VehicleId>& others) {
+  std::set<VehicleId> found(report.coupled.begin(), report.coupled.end());
+  found.insert(report.missing.begin(), report.missing.end());
+  found.insert(report.blocked_by.begin(), report.blocked_by.end());
+  found.insert(report.waiting.vehicles.begin(), report.waiting.vehicles.end());
+  std::erase_if(found, [&](VehicleId one) { return std::ranges::count(others, one) == 0; });
+  return {found.begin(), found.end()};
+}
+
+int explain(const Choices& choices) {
+  const hlc::record::RunFolder run = hlc::record::read_run_folder(choices.run);
+  const Drives drives(run, choices);
+  check_choices(run, choices);
+  std::optional<hlc::scenario::ProblemDump> dump;
+  if (!choices.problems.empty()) {
+    dump.emplace(choices.problems, run.scenario.automaton_file, run.scenario.subgraph->spec());
+  }
+  const Driven driven = drives.as_it_was(dump ? &*dump : nullptr);
+  Rows recorded = run.rows;
+  std::erase_if(recorded, [&](const auto& row) { return row.step > choices.step; });
+  if (const auto difference = hlc::result::first_difference(recorded, driven.rows)) {
+    throw std::invalid_argument(fmt::format(
+        "{}: driven again it differs from its record from step {} on, vehicle {}: {}",
+        choices.run.string(), difference->step, difference->vehicle.value, difference->text));
+  }
+  const hlc::coordination::Report& report = driven.outcome.report;
+  const hlc::scenario::ScenarioVehicle& vehicle =
+      hlc::scenario::vehicle_of(run.scenario, report.vehicle);
+  hlc::apps::ExplainedStep explained{.name = vehicle.name,
+                                     .step = choices.step,
+                                     .step_s = run.description.step_s,
+                                     .outcome = driven.outcome,
+                                     .others = others_in(driven.rows, choices)};
+  const std::vector<VehicleId> may_matter = that_may_matter(report, explained.others);
+  if (choices.step > 0 && !may_matter.empty()) {
+    explained.without_all = drives.without(may_matter);
+    for (const VehicleId one : may_matter) explained.without_one.push_back(drives.without({one}));
+  }
+  std::cout << hlc::apps::explanation(explained);
+  return hlc::kExitGood;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Why a vehicle did what it did in a step of a run of logical time: what it knew, what it "
+      "would have done alone, and without each of the others. Each answer is the run driven again "
+      "up to this step, without them from there on.",
+      "explain"};
+  Choices choices;
+  app.add_option("--run", choices.run, "run folder")->required();
+  app.add_option("--vehicle", choices.vehicle, "id")
+      ->required()
+      ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
+  app.add_option("--step", choices.step, "from 0, as on the page and in steps.csv")
+      ->required()
+      ->check(hlc::apps::whole(0, 100000));
+  app.add_option("--problems", choices.problems,
+                 "folder for the step's planning problems, for plan_problem");
+  app.footer(
+      "Example:\n  explain --run runs/one --vehicle 3 --step 57\n"
+      "Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  return hlc::apps::exit_code_of(
+      "explain", [&] { return explain(choices); }, hlc::kExitBadInput);
+}

@@ -1,0 +1,153 @@
+#include "vehicle_sim/apps/explanation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hlc::apps {
+namespace {
+
+using coordination::FallbackReason;
+using coordination::PlanQuality;
+using coordination::Report;
+using coordination::StepStatus;
+
+/// Ways that differ by less are alike.
+constexpr double kStands_m = 1e-3;
+
+/// "vehicle 3", "vehicles 3, 5".
+std::string vehicles(const std::vector<VehicleId>& ids) {
+  std::vector<int> numbers;
+  for (const VehicleId id : ids) numbers.push_back(id.value);
+  return fmt::format("{} {}", numbers.size() == 1 ? "vehicle" : "vehicles",
+                     fmt::join(numbers, ", "));
+}
+
+/// Why the plan in force stayed.
+std::string reason_words(const Report& report) {
+  const std::string by =
+      report.blocked_by.empty() ? "" : " because of " + vehicles(report.blocked_by);
+  switch (report.reason) {
+    case FallbackReason::kInfeasible:
+      return by.empty() ? "no other plan is possible in its lanes and within its limits"
+                        : "no other plan is possible" + by;
+    case FallbackReason::kBudget:
+      return "the search exhausted its expansions before it found a plan";
+    case FallbackReason::kMissing:
+      return by.empty() ? "no message was received" : "messages are missing" + by;
+    case FallbackReason::kConflict:
+      return by.empty() ? "the new plan would have drifted into something"
+                        : "the new plan meets that of " + vehicles(report.blocked_by);
+    case FallbackReason::kNeighbour:
+      return "a vehicle that planned with it fell back" + by;
+    case FallbackReason::kDeviation:
+      return fmt::format("it is {:.0f} mm off its plan, or not seen", 1e3 * report.deviation_m);
+    case FallbackReason::kLate:
+      return "a deadline of the step had passed";
+    case FallbackReason::kUndrivable:
+      return "the vehicle could not follow the new plan";
+    case FallbackReason::kOffRoute:
+      return "it cannot get onto a route from where it stands";
+    case FallbackReason::kNone:
+      break;
+  }
+  return "no reason";
+}
+
+/// What it did, in a few words.
+std::string outcome_words(const StepOutcome& outcome) {
+  const Report& report = outcome.report;
+  switch (report.status) {
+    case StepStatus::kPlanned: {
+      const std::string proof =
+          report.quality == PlanQuality::kOptimal
+              ? ", the best possible"
+              : fmt::format(", at most {:.3g} m^2 above the best possible", report.gap_m2);
+      return outcome.ahead_m < kStands_m
+                 ? "a new plan: it stands" + proof
+                 : fmt::format("a new plan {:.2f} m ahead{}", outcome.ahead_m, proof);
+    }
+    case StepStatus::kFallback:
+      return fmt::format("kept its plan, {:.2f} m ahead: {}", outcome.ahead_m,
+                         reason_words(report));
+    case StepStatus::kMinimalRiskStop:
+      return "drove its plan to the end: minimal-risk stop";
+    case StepStatus::kStandby:
+      break;
+  }
+  return report.reason == FallbackReason::kOffRoute ? "stood, off its route" : "stood by";
+}
+
+/// Whether it would have been the same in what counts.
+bool is_alike(const StepOutcome& a, const StepOutcome& b) {
+  return a.report.status == b.report.status && a.report.reason == b.report.reason &&
+         a.report.blocked_by == b.report.blocked_by && std::abs(a.ahead_m - b.ahead_m) < kStands_m;
+}
+
+class Lines {
+ public:
+  void add(const std::string& key, const std::string& value) {
+    text_ += fmt::format("{:<16}{}\n", key, value);
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void add_what_it_knew(const ExplainedStep& explained, Lines& lines) {
+  const Report& report = explained.outcome.report;
+  if (explained.others.empty()) {
+    lines.add("knew", "no other vehicle");
+    return;
+  }
+  lines.add("knew", report.missing.empty()
+                        ? "messages of all others: " + vehicles(explained.others)
+                        : "nothing of " + vehicles(report.missing) + " in this step");
+  if (report.coupled.empty()) {
+    lines.add("", "none of them can come near within the horizon");
+    return;
+  }
+  const std::string order =
+      report.level == 0
+          ? "planned before all of them"
+          : fmt::format("planned on level {}, after those that plan before it", report.level);
+  lines.add("", "may come near: " + vehicles(report.coupled) + "; " + order);
+}
+
+}  // namespace
+
+std::string explanation(const ExplainedStep& explained) {
+  const Report& report = explained.outcome.report;
+  Lines lines;
+  lines.add(fmt::format("vehicle {}", report.vehicle.value),
+            fmt::format("{}, step {} ({:.1f} s), subgraph {}", explained.name, explained.step,
+                        explained.step_s * static_cast<double>(explained.step), report.subgraph));
+  lines.add("did", outcome_words(explained.outcome));
+  if (!report.waiting.vehicles.empty()) {
+    lines.add("", coordination::waiting_text(report, explained.step_s));
+  }
+  add_what_it_knew(explained, lines);
+  if (explained.without_all) {
+    const StepOutcome& alone = explained.without_all->outcome;
+    lines.add("alone", is_alike(explained.outcome, alone) ? "the same" : outcome_words(alone));
+  }
+  std::vector<int> not_needed;
+  for (const ExplainedStep::Without& one : explained.without_one) {
+    const int vehicle = one.gone.front().value;
+    if (is_alike(explained.outcome, one.outcome)) {
+      not_needed.push_back(vehicle);
+    } else {
+      lines.add(fmt::format("without {}", vehicle), outcome_words(one.outcome));
+    }
+  }
+  if (!not_needed.empty()) {
+    lines.add("", fmt::format("the same without {}{}", fmt::join(not_needed, ", "),
+                              not_needed.size() > 1 ? ", each alone" : ""));
+  }
+  return lines.text();
+}
+
+}  // namespace hlc::apps

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/coordination/report.hpp"
+
+namespace hlc::apps {
+
+/// What a vehicle did in a step.
+struct StepOutcome {
+  coordination::Report report;
+  double ahead_m{};  ///< way that its plan in force leads from t(k+1) on, until it stands
+};
+
+/// A vehicle's step, and what it would have been without some others.
+struct ExplainedStep {
+  std::string name;      ///< of the vehicle
+  std::uint64_t step{};  ///< from 0
+  double step_s{};       ///< duration of a step
+  StepOutcome outcome;
+  std::vector<VehicleId> others;  ///< present in the step, sorted
+
+  /// The same step of a run in which these vehicles are gone from this step on.
+  struct Without {
+    std::vector<VehicleId> gone;
+    StepOutcome outcome;
+  };
+  std::vector<Without> without_one;    ///< for each vehicle that may matter
+  std::optional<Without> without_all;  ///< for all of these together; none: there are none
+};
+
+/// Lines of text: what the vehicle did and why, what it knew, what it would have done alone, and
+/// what without each of the others.
+[[nodiscard]] std::string explanation(const ExplainedStep& explained);
+
+}  // namespace hlc::apps
