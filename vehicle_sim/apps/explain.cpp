@@ -65,6 +65,7 @@ class Drives {
   Drives(const hlc::record::RunFolder& run, const Choices& choices)
       : run_(run), choices_(choices), options_(hlc::apps::options_of_run(run)) {
     options_.steps = choices.step + 1;
+    options_.prepared = hlc::scenario::prepare_subgraph_of(run.scenario);
     std::erase_if(options_.forks,
                   [&](const hlc::closed_loop::Fork& fork) { return fork.from > choices.step; });
   }
@@ -143,8 +144,8 @@ std::vector<VehicleId> that_may_matter(const hlc::coordination::Report& report,
 
 int explain(const Choices& choices) {
   const hlc::record::RunFolder run = hlc::record::read_run_folder(choices.run);
-  const Drives drives(run, choices);
   check_choices(run, choices);
+  const Drives drives(run, choices);
   std::optional<hlc::scenario::ProblemDump> dump;
   if (!choices.problems.empty()) {
     dump.emplace(choices.problems, run.scenario.automaton_file, run.scenario.subgraph->spec());

@@ -65,7 +65,8 @@ class Lab {
         after_step_(options.after_step),
         wall_clock_(or_zero(options.clocks.wall)),
         cpu_clock_(or_zero(options.clocks.cpu)) {
-    const controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(scenario);
+    const controller::PreparedSubgraph prepared =
+        options.prepared ? *options.prepared : scenario::prepare_subgraph_of(scenario);
     for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
       const std::uint8_t id = vehicle.id.value;
       simulated_vehicle::SimulatedVehicleOptions simulated{

@@ -31,6 +31,8 @@ struct ExperimentOptions {
   /// Disturbances of the controllers' steps. Default: no losses, no delays.
   controller::JointStepRules rules{};
   std::vector<Fork> forks{};  ///< @pre check_forks throws nothing
+  /// prepare_subgraph_of the scenario, for who drives it more than once. None: made by the run.
+  std::optional<controller::PreparedSubgraph> prepared{};
   /// Receives each controller at the end of its step, once its report is complete. May be absent.
   std::function<void(const controller::Controller&)> after_step{};
 };
