@@ -1,6 +1,7 @@
 #include "hlc_bridge/record/configuration.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <optional>
 #include <stdexcept>
@@ -14,6 +15,8 @@ namespace hlc::record {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr char kForks[] = "forks";
 
 /// Location of a file's copy.
 fs::path copy_of(const fs::path& run_folder, const fs::path& file) {
@@ -131,6 +134,27 @@ scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
   if (flags.is_value("seed")) choices.seed = flags.required<std::size_t>("seed");
   choices.routes = text_or_null(flags, "routes");
   return choices;
+}
+
+std::vector<KeptFork> kept_forks(const fs::path& run_folder) {
+  const Node flags = Node::read_yaml(flags_file(run_folder));
+  std::vector<KeptFork> forks;
+  for (const Node& one : flags.optional_list(kForks)) {
+    KeptFork& fork = forks.emplace_back();
+    fork.from = one.required<std::size_t>("from");
+    for (const Node& text : one.list("set")) fork.set.push_back(text.as<std::string>());
+    one.check_no_unknown_keys();
+  }
+  return forks;
+}
+
+std::string flags_with(const KeptFork& fork, const fs::path& run_folder) {
+  std::vector<std::string> texts;
+  for (const std::string& text : fork.set) texts.push_back(quoted_yaml(text));
+  std::string flags = read_file(flags_file(run_folder));
+  if (!flags.ends_with('\n')) flags += '\n';
+  if (kept_forks(run_folder).empty()) flags += fmt::format("{}:\n", kForks);
+  return flags + fmt::format("  - from: {}\n    set: [{}]\n", fork.from, fmt::join(texts, ", "));
 }
 
 RunChoices choices_of_run(const fs::path& run_folder, const RunChoices& given) {

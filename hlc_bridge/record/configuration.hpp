@@ -40,4 +40,17 @@ struct RunChoices {
 [[nodiscard]] RunChoices choices_of_run(const std::filesystem::path& run_folder,
                                         const RunChoices& given);
 
+/// What was changed in a run from a step on (vehicle_sim/closed_loop/fork.hpp), from the list
+/// `forks` of its flags.yaml.
+struct KeptFork {
+  std::uint64_t from{};          ///< step of the experiment, from 0
+  std::vector<std::string> set;  ///< the texts of the changes
+};
+
+/// @throws std::invalid_argument naming file, line, key, value and bound
+[[nodiscard]] std::vector<KeptFork> kept_forks(const std::filesystem::path& run_folder);
+
+/// The text of the run's flags.yaml with one more fork. @throws as kept_forks
+[[nodiscard]] std::string flags_with(const KeptFork& fork, const std::filesystem::path& run_folder);
+
 }  // namespace hlc::record

@@ -1,6 +1,7 @@
 #include "hlc_bridge/record/start_differences.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -25,9 +26,14 @@ Flags flags_of(const fs::path& folder) {
   const Node file = Node::read_yaml(folder / "configuration" / "flags.yaml");
   Flags flags;
   for (const std::string& key : file.keys()) {
-    if (key == "scenario" || key == "map" || key == "dds_domain") continue;
+    if (key == "scenario" || key == "map" || key == "dds_domain" || key == "forks") continue;
     flags[key] = file.is_value(key) ? file.required<std::string>(key) : kNone;
   }
+  std::vector<std::string> forks;
+  for (const KeptFork& fork : kept_forks(folder)) {
+    forks.push_back(fmt::format("from step {} {}", fork.from, fmt::join(fork.set, " ")));
+  }
+  if (!forks.empty()) flags["forks"] = fmt::format("{}", fmt::join(forks, ", "));
   return flags;
 }
 
@@ -82,7 +88,8 @@ std::vector<std::string> start_differences(const RunFolder& a, const RunFolder& 
     const std::string in_a = value_of(flags_a, key);
     const std::string in_b = value_of(flags_b, key);
     if (in_a == in_b) continue;
-    lines.push_back(fmt::format("{}: {} and {}", one_line(key), one_line(in_a), one_line(in_b)));
+    lines.push_back(
+        fmt::format("{}: {} and {}", one_line(key), one_line(in_a, 200), one_line(in_b, 200)));
   }
   return lines;
 }

@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
+#include "hlc_bridge/record/configuration.hpp"
 #include "planner/common/node.hpp"
 #include "planner/common/text_file.hpp"
-#include "planner/common/yaml_text.hpp"
 #include "vehicle_sim/apps/run_folder.hpp"
 
 namespace hlc::apps {
@@ -16,26 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kForks[] = "forks";
-
 fs::path flags_file(const fs::path& folder) { return folder / "configuration" / "flags.yaml"; }
 
-std::vector<closed_loop::Fork> forks_of(const Node& flags, const scenario::Scenario& scenario) {
+std::vector<closed_loop::Fork> forks_of(const record::RunFolder& run) {
   std::vector<closed_loop::Fork> forks;
-  for (const Node& one : flags.optional_list(kForks)) {
-    closed_loop::Fork fork{.from = one.required<std::size_t>("from"), .changes = {}};
-    for (const Node& text : one.list("set")) {
-      fork.changes.push_back(closed_loop::change_from_text(text.as<std::string>(), scenario));
+  for (const record::KeptFork& kept : record::kept_forks(run.folder)) {
+    closed_loop::Fork& fork = forks.emplace_back();
+    fork.from = kept.from;
+    for (const std::string& text : kept.set) {
+      fork.changes.push_back(closed_loop::change_from_text(text, run.scenario));
     }
-    forks.push_back(std::move(fork));
   }
   return forks;
-}
-
-std::string fork_yaml(std::uint64_t from, const std::vector<std::string>& set) {
-  std::string texts;
-  for (const std::string& text : set) texts += (texts.empty() ? "" : ", ") + quoted_yaml(text);
-  return fmt::format("  - from: {}\n    set: [{}]\n", from, texts);
 }
 
 }  // namespace
@@ -54,7 +46,7 @@ closed_loop::ExperimentOptions options_of_run(const record::RunFolder& run) {
     options.stamps =
         stamps == "lab" ? simulated_vehicle::Stamps::kLab : simulated_vehicle::Stamps::kExact;
   }
-  options.forks = forks_of(flags, run.scenario);
+  options.forks = forks_of(run);
   closed_loop::check_forks(options.forks, run.scenario, options.steps);
   return options;
 }
@@ -81,10 +73,7 @@ void write_fork(const fs::path& folder, const record::RunFolder& run, std::uint6
              error);
   }
   if (error) throw std::runtime_error(folder.string() + ": " + error.message());
-  std::string flags = read_file(flags_file(run.folder));
-  const bool has_forks = Node::parse_yaml(flags, flags_file(run.folder).string()).has(kForks);
-  if (!has_forks) flags += fmt::format("{}:\n", kForks);
-  write_file(flags_file(folder), flags + fork_yaml(from, set));
+  write_file(flags_file(folder), record::flags_with({.from = from, .set = set}, run.folder));
   write_records(folder, experiment);
 }
 

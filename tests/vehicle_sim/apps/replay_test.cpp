@@ -77,6 +77,10 @@ TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
   EXPECT_THAT(replay(second, "").output, HasSubstr("bitwise identical"));
   const test::Outcome result = test::run_program("summarize --run " + second.string());
   EXPECT_EQ(result.exit_code, 0) << result.output;
+  const test::Outcome compared =
+      test::run_program("compare " + run().string() + " " + second.string());
+  EXPECT_THAT(compared.output, HasSubstr("forks: null and from step 10 priorities=3,2 speed=1:0.5, "
+                                         "from step 20 without=2"));
 }
 
 TEST_F(Replay, OfARunThatEndedEarlyComparesWhatIsRecorded) {
