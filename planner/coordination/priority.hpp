@@ -33,7 +33,7 @@ class PriorityRule {
 
 /// Computation level of each vehicle: 0 without predecessors, otherwise one more than the largest
 /// level among them. Vehicles of one level plan at the same time.
-[[nodiscard]] std::map<VehicleId, std::uint32_t> computation_levels(const CouplingGraph& graph,
-                                                                    const PriorityRule& plans_before);
+[[nodiscard]] std::map<VehicleId, std::uint32_t> computation_levels(
+    const CouplingGraph& graph, const PriorityRule& plans_before);
 
 }  // namespace hlc::coordination

@@ -61,9 +61,9 @@ struct Missing {
 ///   last received was free when it took it, and those that were received hold theirs still, or
 ///   hold only cells behind it that it has left, up to `moved_m`.
 /// * Those that have received all take the result of `grant`, the same for all and without overlap.
-/// * `grant` gives to a vehicle what it would give if only those existed whose reaches are connected
-///   with its own by overlaps, and these are the same or fewer for who knows more. So who has
-///   received all of those takes the result of `grant` with the others.
+/// * What `grant` gives to a vehicle depends only on those whose reaches are connected with its own
+///   by overlaps, and these are the same or fewer for who knows more. So who has received all of
+///   those takes the result of `grant` with the others.
 /// * Everybody else takes only what is in nobody's reach.
 ///
 /// Assumed: places move by at most `moved_m`, plans end in cells that were granted, and what blocks

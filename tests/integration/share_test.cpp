@@ -59,8 +59,8 @@ TEST_F(SharedProcesses, DriveAsThoseOfEveryVehicleDo) {
     ASSERT_EQ(run.wait_for(120s), 0) << output();
     EXPECT_EQ(std::filesystem::exists(folder / "logs" / "middleware_1-3.log"), share == "machine");
   }
-  const Outcome equal = run_program("compare " + (folder_ / "none").string() + " " +
-                                    (folder_ / "machine").string());
+  const Outcome equal =
+      run_program("compare " + (folder_ / "none").string() + " " + (folder_ / "machine").string());
   EXPECT_EQ(equal.exit_code, 0) << equal.output;
   EXPECT_NE(equal.output.find("the runs are equal: 40 steps"), std::string::npos) << equal.output;
   for (const char* record : {"vehicle_1.csv", "vehicle_2.csv", "vehicle_3.csv"}) {

@@ -70,8 +70,7 @@ int compare_with(const hlc::record::RunFolder& recorded, const Rows& rows, std::
   }
   const auto difference = hlc::result::first_difference(expected, driven);
   if (!difference) {
-    std::cout << "bitwise identical: trace_sha256 " << hlc::result::trace_sha256(driven)
-              << '\n';
+    std::cout << "bitwise identical: trace_sha256 " << hlc::result::trace_sha256(driven) << '\n';
     return hlc::kExitGood;
   }
   std::cout << "differs (record and replay) first at "

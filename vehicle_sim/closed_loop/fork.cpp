@@ -145,6 +145,25 @@ void check_is_there(const Fork::Change& change, const std::set<VehicleId>& gone)
       fmt::format("--set: vehicle {}, must be one that is still there", vehicle->value));
 }
 
+void check_coordination(const Fork::Change& change, const scenario::Scenario& scenario) {
+  const auto* const one = std::get_if<Fork::Coordination>(&change);
+  if (one == nullptr || !one->rule.commit.needs_votes) return;
+  if (scenario.rounds != controller::Rounds::kTwo) return;
+  throw std::invalid_argument(
+      "--set: coordination=agreed, must be cooperative or strict in a run of two rounds");
+}
+
+void check_without(const Fork& fork, std::size_t num_gone, std::size_t num_vehicles) {
+  if (fork.from == 0) {
+    throw std::invalid_argument(
+        "--from = 0, must be at least 1 with --set without=: a scenario without the vehicle is "
+        "another one");
+  }
+  if (num_gone == num_vehicles) {
+    throw std::invalid_argument("--set: without=, must leave at least one vehicle");
+  }
+}
+
 }  // namespace
 
 Fork::Change change_from_text(const std::string& text, const scenario::Scenario& scenario) {
@@ -161,23 +180,11 @@ void check_forks(const std::vector<Fork>& forks, const scenario::Scenario& scena
     }
     for (const Fork::Change& change : fork.changes) {
       check_is_there(change, gone);
-      const auto* const rule = std::get_if<Fork::Coordination>(&change);
-      if (rule != nullptr && rule->rule.commit.needs_votes &&
-          scenario.rounds == controller::Rounds::kTwo) {
-        throw std::invalid_argument(
-            "--set: coordination=agreed, must be cooperative or strict in a run of two rounds");
-      }
+      check_coordination(change, scenario);
       const auto* const without = std::get_if<Fork::Without>(&change);
       if (without == nullptr) continue;
-      if (fork.from == 0) {
-        throw std::invalid_argument(
-            "--from = 0, must be at least 1 with --set without=: a scenario without the vehicle is "
-            "another one");
-      }
       gone.insert(without->vehicle);
-      if (gone.size() == scenario.vehicles.size()) {
-        throw std::invalid_argument("--set: without=, must leave at least one vehicle");
-      }
+      check_without(fork, gone.size(), scenario.vehicles.size());
     }
   }
 }

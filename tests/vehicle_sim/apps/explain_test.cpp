@@ -35,8 +35,8 @@ class Explain : public testing::Test {
     return experiment;
   }
   [[nodiscard]] static const test::TemporaryFolder& folder() {
-    static const test::TemporaryFolder folder;
-    return folder;
+    static const test::TemporaryFolder kFolder;
+    return kFolder;
   }
   [[nodiscard]] static fs::path run() { return folder().path() / "run"; }
   [[nodiscard]] static test::Outcome explain(const std::string& flags) {

@@ -24,9 +24,9 @@ using Rows = std::vector<result::StepRecord>;
 constexpr std::uint64_t kSteps = 60;
 
 const scenario::Scenario& three_cars() {
-  static const scenario::Scenario scenario = scenario::read_scenario(
+  static const scenario::Scenario kScenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
-  return scenario;
+  return kScenario;
 }
 
 Rows rows_of(const ExperimentOptions& options) {
@@ -36,8 +36,8 @@ Rows rows_of(const ExperimentOptions& options) {
 }
 
 const Rows& as_it_was() {
-  static const Rows rows = rows_of({.steps = kSteps});
-  return rows;
+  static const Rows kRows = rows_of({.steps = kSteps});
+  return kRows;
 }
 
 Rows with(std::uint64_t from, std::vector<Fork::Change> changes) {
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadChange{"lost=1>2:3:4", "1 ..."}, BadChange{"lost=1>2\n:3", "1, 2, 3"}));
 
 TEST(Fork, OneThatCannotBeDrivenIsRefused) {
-  const auto refusal = [](std::vector<Fork> forks) -> std::string {
+  const auto refusal = [](const std::vector<Fork>& forks) -> std::string {
     try {
       check_forks(forks, three_cars(), kSteps);
       return "";
