@@ -34,7 +34,11 @@ RunFolder read_run_folder(const fs::path& folder, const RunChoices& given) {
   run.choices = choices_of_run(folder, given);
   run.scenario = scenario::read_scenario(run.choices.scenario);
   run.description = result::describe(run.scenario, run.choices.noise_seed);
-  result::check_run(run.facts, run.description);
+  try {
+    result::check_run(run.facts, run.description);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(folder.string() + ": " + error.what());
+  }
   run.drives = read_drives(folder, run.facts.vehicle_ids);
   run.rows = result::step_records(run.reports, run.drives, run.facts);
   run.incomplete = incomplete_files(run.facts, run.rows, run.drives);

@@ -15,7 +15,6 @@
 
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
-#include "hlc_bridge/result/first_difference.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/controller/controller.hpp"
 #include "planner/scenario/problem_dump.hpp"
@@ -151,13 +150,7 @@ int explain(const Choices& choices) {
     dump.emplace(choices.problems, run.scenario.automaton_file, run.scenario.subgraph->spec());
   }
   const Driven driven = drives.as_it_was(dump ? &*dump : nullptr);
-  Rows recorded = run.rows;
-  std::erase_if(recorded, [&](const auto& row) { return row.step > choices.step; });
-  if (const auto difference = hlc::result::first_difference(recorded, driven.rows)) {
-    throw std::invalid_argument(fmt::format(
-        "{}: driven again it differs from its record from step {} on, vehicle {}: {}",
-        choices.run.string(), difference->step, difference->vehicle.value, difference->text));
-  }
+  hlc::apps::check_same_until(choices.step + 1, run, driven.rows);
   const hlc::coordination::Report& report = driven.outcome.report;
   const hlc::scenario::ScenarioVehicle& vehicle =
       hlc::scenario::vehicle_of(run.scenario, report.vehicle);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hlc_bridge/record/configuration.hpp"
+#include "hlc_bridge/result/first_difference.hpp"
 #include "planner/common/node.hpp"
 #include "planner/common/text_file.hpp"
 #include "vehicle_sim/apps/run_folder.hpp"
@@ -15,6 +16,8 @@ namespace hlc::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMostSteps = 100'000;
 
 fs::path flags_file(const fs::path& folder) { return folder / "configuration" / "flags.yaml"; }
 
@@ -27,7 +30,15 @@ std::vector<closed_loop::Fork> forks_of(const record::RunFolder& run) {
       fork.changes.push_back(closed_loop::change_from_text(text, run.scenario));
     }
   }
+  closed_loop::check_forks(forks, run.scenario, run.facts.steps);
   return forks;
+}
+
+/// Whether a folder can be made there: tried, as permissions do not show it everywhere (/proc).
+bool can_be_created(const fs::path& folder) {
+  std::error_code error;
+  if (fs::create_directories(folder, error)) fs::remove(folder, error);
+  return !error;
 }
 
 }  // namespace
@@ -36,6 +47,11 @@ closed_loop::ExperimentOptions options_of_run(const record::RunFolder& run) {
   if (!run.facts.simulated_time) {
     throw std::invalid_argument(run.folder.string() +
                                 ": driven in real time, must be a run in logical time");
+  }
+  if (run.facts.steps == 0 || run.facts.steps > kMostSteps) {
+    throw std::invalid_argument(fmt::format("{}: steps = {}, must be in 1 ... {}",
+                                            (run.folder / "run.json").string(), run.facts.steps,
+                                            kMostSteps));
   }
   const Node flags = Node::read_yaml(flags_file(run.folder));
   closed_loop::ExperimentOptions options{.steps = run.facts.steps,
@@ -46,9 +62,27 @@ closed_loop::ExperimentOptions options_of_run(const record::RunFolder& run) {
     options.stamps =
         stamps == "lab" ? simulated_vehicle::Stamps::kLab : simulated_vehicle::Stamps::kExact;
   }
-  options.forks = forks_of(run);
-  closed_loop::check_forks(options.forks, run.scenario, options.steps);
+  try {
+    options.forks = forks_of(run);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(
+        fmt::format("{}: forks: {}", flags_file(run.folder).string(), error.what()));
+  }
   return options;
+}
+
+void check_same_until(std::uint64_t step, const record::RunFolder& run,
+                      std::span<const result::StepRecord> rows) {
+  const auto is_later = [step](const result::StepRecord& row) { return row.step >= step; };
+  std::vector<result::StepRecord> recorded = run.rows;
+  std::vector<result::StepRecord> driven(rows.begin(), rows.end());
+  std::erase_if(recorded, is_later);
+  std::erase_if(driven, is_later);
+  const auto difference = result::first_difference(recorded, driven);
+  if (!difference) return;
+  throw std::invalid_argument(fmt::format(
+      "{}: driven again it differs from its record from step {} on, vehicle {}: {}",
+      run.folder.string(), difference->step, difference->vehicle.value, difference->text));
 }
 
 fs::path fork_folder(const record::RunFolder& run, std::uint64_t from, const fs::path& out) {
@@ -60,6 +94,10 @@ fs::path fork_folder(const record::RunFolder& run, std::uint64_t from, const fs:
   std::error_code error;
   if (fs::exists(folder, error) && !(fs::is_directory(folder) && fs::is_empty(folder, error))) {
     throw std::invalid_argument(fmt::format("--out = {}, must be new or empty", folder.string()));
+  }
+  if (!can_be_created(folder)) {
+    throw std::invalid_argument(
+        fmt::format("--out = {}, must be a folder that can be created", folder.string()));
   }
   return folder;
 }

@@ -64,14 +64,15 @@ int compare_with(const hlc::record::RunFolder& recorded, const Rows& rows, std::
   const Rows expected = before(recorded.rows, steps);
   const std::uint64_t until = std::min(steps, recorded_steps(recorded));
   const Rows driven = before(rows, until);
+  const std::string& ended = recorded.facts.reason;
   if (until < steps) {
-    std::cout << fmt::format("{} of {} steps are recorded{}\n", until, steps,
-                             recorded.facts.reason.empty() ? "" : ": " + recorded.facts.reason);
+    std::cout << fmt::format("{} of {} steps are recorded: {}\n", until, steps,
+                             ended.empty() ? "reports.csv ends early" : ended);
   }
   const auto difference = hlc::result::first_difference(expected, driven);
   if (!difference) {
     std::cout << "bitwise identical: trace_sha256 " << hlc::result::trace_sha256(driven) << '\n';
-    return hlc::kExitGood;
+    return until < steps && ended.empty() ? kExitDiffers : hlc::kExitGood;
   }
   std::cout << "differs (record and replay) first at "
             << in_words(*difference, recorded.description.step_s) << '\n'
@@ -91,7 +92,10 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
       hlc::result::first_difference(before(recorded.rows, until), before(rows, until));
   if (difference) {
     std::cout << "parts (run and fork) at " << in_words(*difference, recorded.description.step_s)
-              << "\n\n";
+              << '\n';
+    const bool is_same_way = hlc::result::trace_sha256(before(recorded.rows, until)) ==
+                             hlc::result::trace_sha256(before(rows, until));
+    std::cout << (is_same_way ? "all cars drive as before\n\n" : "\n");
   } else {
     std::cout << "the fork is the same as the run: trace_sha256 "
               << hlc::result::trace_sha256(before(rows, until)) << "\n\n";
@@ -106,6 +110,9 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
 int replay(const Choices& choices) {
   const hlc::record::RunFolder recorded = hlc::record::read_run_folder(choices.run);
   hlc::closed_loop::ExperimentOptions options = hlc::apps::options_of_run(recorded);
+  if (recorded.rows.empty()) {
+    throw std::invalid_argument(choices.run.string() + ": no step is recorded");
+  }
   options.clocks = hlc::apps::machine_clocks();
   if (choices.until) options.steps = std::min(options.steps, *choices.until);
   std::filesystem::path folder;
@@ -125,6 +132,7 @@ int replay(const Choices& choices) {
   drove(options.steps, recorded.scenario.vehicles.size(),
         recorded.description.step_s * static_cast<double>(options.steps), experiment.facts.wall_s);
   if (!choices.from) return compare_with(recorded, rows, options.steps);
+  hlc::apps::check_same_until(*choices.from, recorded, rows);
   hlc::apps::write_fork(folder, recorded, *choices.from, choices.set, experiment);
   describe_fork(recorded, choices, experiment, rows, options.steps);
   std::cout << fmt::format(

@@ -1,5 +1,7 @@
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -204,9 +207,14 @@ class Lab {
       for (const VehicleId vehicle : changed) {
         const Member& member = member_of(vehicle);
         const controller::ControllerOptions& options = member.hlc.controller().options();
-        requests_[{fork.from, vehicle}] = std::make_shared<const policy::PreparedChoice>(
-            member.choice.base(), so_far.at(vehicle), member.choice.limits_mps(),
-            options.horizon_steps, options.search);
+        try {
+          requests_[{fork.from, vehicle}] = std::make_shared<const policy::PreparedChoice>(
+              member.choice.base(), so_far.at(vehicle), member.choice.limits_mps(),
+              options.horizon_steps, options.search);
+        } catch (const std::invalid_argument& error) {
+          throw std::invalid_argument(fmt::format("--set of vehicle {} from step {}: {}",
+                                                  vehicle.value, fork.from, error.what()));
+        }
       }
     }
   }

@@ -100,7 +100,9 @@ class ChangeText {
 
   [[nodiscard]] Fork::Labels labels() const {
     const auto [id, labels] = halves(':', "criteria=VEHICLE:CRITERION, several joined by +");
-    return {.vehicle = vehicle(id), .labels = split(labels, '+')};
+    Fork::Labels result{.vehicle = vehicle(id), .labels = split(labels, '+')};
+    if (std::ranges::count(result.labels, "") > 0) refuse("criteria=VEHICLE:CRITERION+CRITERION");
+    return result;
   }
 
   [[nodiscard]] Fork::MaxSpeed max_speed() const {
@@ -115,6 +117,7 @@ class ChangeText {
     const auto [from, rest] = halves('>', "lost=VEHICLE>VEHICLE or lost=VEHICLE>VEHICLE:STEPS");
     const std::vector<std::string> to_and_steps = split(rest, ':');
     Fork::Lost result{.from = vehicle(from), .to = vehicle(to_and_steps.front())};
+    if (result.from == result.to) refuse("of two vehicles");
     if (to_and_steps.size() == 1) return result;
     const auto steps = number_in<std::uint64_t>(to_and_steps[1]);
     if (to_and_steps.size() > 2 || !steps || *steps == 0 || *steps > kMostLostSteps) {

@@ -87,8 +87,33 @@ TEST_F(Replay, OfARunThatEndedEarlyComparesWhatIsRecorded) {
   const std::string reports = read_file(run() / "reports.csv");
   std::ofstream(run() / "reports.csv") << reports.substr(0, reports.find("\n20,") + 1);
   const auto [exit_code, output] = replay("");
-  EXPECT_EQ(exit_code, 0) << output;
-  EXPECT_THAT(output, HasSubstr("of 40 steps are recorded"));
+  EXPECT_EQ(exit_code, 1) << "nothing ended the run early\n" << output;
+  EXPECT_THAT(output, HasSubstr("of 40 steps are recorded: reports.csv ends early"));
+  change("run.json", "\"reason\": \"\"", "\"reason\": \"interrupted\"");
+  EXPECT_EQ(replay("").exit_code, 0);
+  std::ofstream(run() / "reports.csv") << reports.substr(0, reports.find('\n') + 1);
+  EXPECT_EQ(replay("").exit_code, 2) << "nothing to compare with";
+}
+
+TEST_F(Replay, OfARunWithBadFactsOrForksNamesTheFile) {
+  std::ofstream(run() / "configuration" / "flags.yaml", std::ios::app)
+      << "forks:\n  - from: 3\n    set: ['foo=3']\n";
+  const test::Outcome forks = replay("");
+  EXPECT_EQ(forks.exit_code, 2);
+  EXPECT_THAT(forks.output, HasSubstr("flags.yaml: forks: "));
+  change("run.json", "\"steps\": 40", "\"steps\": 1000000");
+  const test::Outcome steps = replay("");
+  EXPECT_EQ(steps.exit_code, 2);
+  EXPECT_THAT(steps.output, HasSubstr("run.json: steps = 1000000, must be in 1 ... 100000"));
+}
+
+// Such a fork would not be the same as the run before its first step.
+TEST_F(Replay, NoForkIsMadeOfARunThatIsNotReplayed) {
+  change("reports.csv", ",planned,", ",fallback,");
+  const auto [exit_code, output] = replay("--from 10 --set priorities=3");
+  EXPECT_EQ(exit_code, 2) << output;
+  EXPECT_THAT(output, HasSubstr("differs from its record from step 0 on"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "one_from_10"));
 }
 
 TEST_F(Replay, RefusesWhatItCannotDriveInOneLineAndLeavesNoFolder) {
@@ -101,7 +126,8 @@ TEST_F(Replay, RefusesWhatItCannotDriveInOneLineAndLeavesNoFolder) {
         Bad{"--from 3 --set without=9", "1, 2, 3"}, Bad{"--set without=1", "--from"},
         Bad{"--from 3 --set criteria=1:J9", "J9"}, Bad{"--from 3 --until 2", "2 steps"},
         Bad{"--out /tmp/x", "--from"}, Bad{"--until 0", "--until"},
-        Bad{"--from 3 --out " + run().string(), "new or empty"}, Bad{"--speed 3", "--speed"}}) {
+        Bad{"--from 3 --out " + run().string(), "new or empty"},
+        Bad{"--from 3 --out /proc/no", "--out"}, Bad{"--speed 3", "--speed"}}) {
     const auto [exit_code, output] = replay(flags);
     EXPECT_EQ(exit_code, 2) << flags << '\n' << output;
     EXPECT_THAT(output, HasSubstr(named));

@@ -186,7 +186,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadChange{"coordination=none", "cooperative"}, BadChange{"speed=1", "m/s"},
                     BadChange{"speed=1:0", "above 0"}, BadChange{"speed=1:nan", "above 0"},
                     BadChange{"criteria=J2", "VEHICLE:CRITERION"},
-                    BadChange{"lost=1", "VEHICLE>VEHICLE"}, BadChange{"lost=1>2:0", "1 ..."},
+                    BadChange{"lost=1", "VEHICLE>VEHICLE"}, BadChange{"lost=1>1", "two vehicles"},
+                    BadChange{"criteria=1:", "CRITERION"}, BadChange{"lost=1>2:0", "1 ..."},
                     BadChange{"lost=1>2:3:4", "1 ..."}, BadChange{"lost=1>2\n:3", "1, 2, 3"}));
 
 TEST(Fork, OneThatCannotBeDrivenIsRefused) {
