@@ -115,6 +115,9 @@ int replay(const Choices& choices) {
   }
   options.clocks = hlc::apps::machine_clocks();
   if (choices.until) options.steps = std::min(options.steps, *choices.until);
+  std::erase_if(options.forks, [&](const hlc::closed_loop::Fork& fork) {
+    return fork.from >= options.steps;  // of a run that is forked again, and ends earlier
+  });
   std::filesystem::path folder;
   if (choices.from) {
     hlc::closed_loop::Fork fork{.from = *choices.from, .changes = {}};

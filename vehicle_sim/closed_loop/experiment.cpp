@@ -219,6 +219,7 @@ class Lab {
     }
   }
 
+  /// @pre it is not gone
   Member& member_of(VehicleId vehicle) {
     return *std::ranges::find(members_, vehicle.value, &Member::id);
   }
@@ -232,7 +233,8 @@ class Lab {
       }
     }
     for (const auto& [at, request] : requests_) {
-      if (start_->value + at.first == step.value) member_of(at.second).choice.ask(request);
+      if (start_->value + at.first != step.value || gone_.contains(at.second)) continue;
+      member_of(at.second).choice.ask(request);
     }
   }
 

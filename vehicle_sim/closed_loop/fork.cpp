@@ -175,8 +175,10 @@ Fork::Change change_from_text(const std::string& text, const scenario::Scenario&
 
 void check_forks(const std::vector<Fork>& forks, const scenario::Scenario& scenario,
                  std::uint64_t steps) {
+  std::vector<Fork> in_order = forks;
+  std::ranges::stable_sort(in_order, {}, &Fork::from);
   std::set<VehicleId> gone;
-  for (const Fork& fork : forks) {
+  for (const Fork& fork : in_order) {
     if (fork.from >= steps) {
       throw std::invalid_argument(
           fmt::format("--from = {}, must be less than the run's {} steps", fork.from, steps));

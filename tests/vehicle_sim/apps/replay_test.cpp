@@ -75,6 +75,7 @@ TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
   ASSERT_EQ(forked.exit_code, 0) << forked.output;
   EXPECT_THAT(forked.output, HasSubstr("at step 20 (4.0 s)"));
   EXPECT_THAT(replay(second, "").output, HasSubstr("bitwise identical"));
+  EXPECT_THAT(replay(second, "--until 15").output, HasSubstr("bitwise identical"));
   const test::Outcome result = test::run_program("summarize --run " + second.string());
   EXPECT_EQ(result.exit_code, 0) << result.output;
   const test::Outcome compared =

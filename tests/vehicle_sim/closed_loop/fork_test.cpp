@@ -145,6 +145,22 @@ TEST(Fork, SeveralForksOfARunHoldTogetherWhateverTheirOrder) {
             result::trace_sha256(rows_of({.steps = kSteps, .forks = {slow, gone}})));
 }
 
+// The request of a vehicle that was gone used to be passed on to nobody.
+TEST(Fork, AChangeOfAVehicleThatIsGoneInTheSameStepHasNoEffect) {
+  const Fork::Change slow = Fork::MaxSpeed{.vehicle = {2}, .max_speed_mps = 0.4};
+  const Fork::Change gone = Fork::Without{{2}};
+  const Rows rows = with(10, {slow, gone});
+  EXPECT_FALSE(result::first_difference(with(10, {gone}), rows));
+}
+
+TEST(Fork, IsCheckedInTheOrderOfSteps) {
+  const Fork gone{.from = 20, .changes = {Fork::Without{{2}}}};
+  const Fork slow{.from = 10, .changes = {Fork::MaxSpeed{.vehicle = {2}, .max_speed_mps = 0.4}}};
+  EXPECT_NO_THROW(check_forks({gone, slow}, three_cars(), kSteps));
+  const Fork later{.from = 30, .changes = {Fork::MaxSpeed{.vehicle = {2}, .max_speed_mps = 0.4}}};
+  EXPECT_THROW(check_forks({later, gone}, three_cars(), kSteps), std::invalid_argument);
+}
+
 TEST(ChangeText, IsReadAsWritten) {
   const auto read = [](const std::string& text) { return change_from_text(text, three_cars()); };
   EXPECT_EQ(read("priorities=3,1"), Fork::Change(Fork::Priorities{{{3}, {1}}}));
