@@ -67,7 +67,7 @@ struct Missing {
 /// * Everybody else takes only what is in nobody's reach.
 ///
 /// Assumed: places move by at most `moved_m`, plans end in cells that were granted, and what blocks
-/// is the same for all. It is not where only some consider a vehicle gone, or have never received it.
+/// is the same for all. It is not where only some consider a vehicle gone, or never received it.
 /// @pre `own` is one of `holders`, none of `missing`
 [[nodiscard]] std::optional<std::vector<Holder>> cautious_grant(const ConflictMap& map,
                                                                 std::span<const Holder> holders,
