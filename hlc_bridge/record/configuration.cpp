@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kForks[] = "forks";
-
 /// Location of a file's copy.
 fs::path copy_of(const fs::path& run_folder, const fs::path& file) {
   const fs::path full = fs::absolute(file).lexically_normal();
@@ -136,25 +134,32 @@ scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
   return choices;
 }
 
+fs::path forks_file(const fs::path& run_folder) {
+  return run_folder / "configuration" / "forks.yaml";
+}
+
 std::vector<KeptFork> kept_forks(const fs::path& run_folder) {
-  const Node flags = Node::read_yaml(flags_file(run_folder));
   std::vector<KeptFork> forks;
-  for (const Node& one : flags.optional_list(kForks)) {
+  if (!fs::exists(forks_file(run_folder))) return forks;
+  const Node file = Node::read_yaml(forks_file(run_folder));
+  for (const Node& one : file.list("forks")) {
     KeptFork& fork = forks.emplace_back();
     fork.from = one.required<std::size_t>("from");
     for (const Node& text : one.list("set")) fork.set.push_back(text.as<std::string>());
     one.check_no_unknown_keys();
   }
+  file.check_no_unknown_keys();
   return forks;
 }
 
-std::string flags_with(const KeptFork& fork, const fs::path& run_folder) {
-  std::vector<std::string> texts;
-  for (const std::string& text : fork.set) texts.push_back(quoted_yaml(text));
-  std::string flags = read_file(flags_file(run_folder));
-  if (!flags.ends_with('\n')) flags += '\n';
-  if (kept_forks(run_folder).empty()) flags += fmt::format("{}:\n", kForks);
-  return flags + fmt::format("  - from: {}\n    set: [{}]\n", fork.from, fmt::join(texts, ", "));
+std::string forks_yaml(const std::vector<KeptFork>& forks) {
+  std::string yaml = "forks:\n";
+  for (const KeptFork& fork : forks) {
+    std::vector<std::string> texts;
+    for (const std::string& text : fork.set) texts.push_back(quoted_yaml(text));
+    yaml += fmt::format("  - from: {}\n    set: [{}]\n", fork.from, fmt::join(texts, ", "));
+  }
+  return yaml;
 }
 
 RunChoices choices_of_run(const fs::path& run_folder, const RunChoices& given) {

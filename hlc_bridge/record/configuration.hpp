@@ -40,17 +40,20 @@ struct RunChoices {
 [[nodiscard]] RunChoices choices_of_run(const std::filesystem::path& run_folder,
                                         const RunChoices& given);
 
-/// What was changed in a run from a step on (vehicle_sim/closed_loop/fork.hpp), from the list
-/// `forks` of its flags.yaml.
+/// What was changed in a run from a step on.
 struct KeptFork {
   std::uint64_t from{};          ///< step of the experiment, from 0
   std::vector<std::string> set;  ///< the texts of the changes
 };
 
-/// @throws std::invalid_argument naming file, line, key, value and bound
+/// Of a run folder: a list `forks` of {from, set}; the file is there only if there are any.
+[[nodiscard]] std::filesystem::path forks_file(const std::filesystem::path& run_folder);
+
+/// In their order in the file. @throws std::invalid_argument naming file, line, key, value and
+/// bound
 [[nodiscard]] std::vector<KeptFork> kept_forks(const std::filesystem::path& run_folder);
 
-/// The text of the run's flags.yaml with one more fork. @throws as kept_forks
-[[nodiscard]] std::string flags_with(const KeptFork& fork, const std::filesystem::path& run_folder);
+/// The text of such a file. @pre not empty
+[[nodiscard]] std::string forks_yaml(const std::vector<KeptFork>& forks);
 
 }  // namespace hlc::record

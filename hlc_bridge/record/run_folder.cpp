@@ -26,10 +26,10 @@ RunFolder read_run_folder(const fs::path& folder, const RunChoices& given) {
   check_is_there(folder, "run.json");
   check_is_there(folder, "reports.csv");
   RunFolder run{.folder = folder};
-  run.reports = read_reports(folder / "reports.csv");
+  const std::vector<ReportRecord> reports = read_reports(folder / "reports.csv");
   run.facts = read_facts(folder / "run.json");
   if (!run.facts.first_step) {
-    run.facts.first_step = result::first_step_of(run.reports);  // the lab control did not end it
+    run.facts.first_step = result::first_step_of(reports);  // the lab control did not end it
   }
   run.choices = choices_of_run(folder, given);
   run.scenario = scenario::read_scenario(run.choices.scenario);
@@ -40,7 +40,7 @@ RunFolder read_run_folder(const fs::path& folder, const RunChoices& given) {
     throw std::runtime_error(folder.string() + ": " + error.what());
   }
   run.drives = read_drives(folder, run.facts.vehicle_ids);
-  run.rows = result::step_records(run.reports, run.drives, run.facts);
+  run.rows = result::step_records(reports, run.drives, run.facts);
   run.incomplete = incomplete_files(run.facts, run.rows, run.drives);
   return run;
 }
@@ -49,6 +49,15 @@ RunFolder read_run_folder(const fs::path& folder) {
   check_is_there(folder, "run.json");
   check_is_there(folder, fs::path("configuration") / "flags.yaml");
   return read_run_folder(folder, RunChoices{.scenario = {.profile = {}}, .noise_seed = {}});
+}
+
+std::uint64_t recorded_steps(const RunFolder& run) {
+  if (run.rows.empty()) return 0;
+  const std::uint64_t last = run.rows.back().step;
+  if (last == 0 || last + 1 == run.facts.steps) return last + 1;
+  const std::size_t before_last = result::rows_before(run.rows, last).size();
+  const std::size_t one_before = before_last - result::rows_before(run.rows, last - 1).size();
+  return run.rows.size() - before_last < one_before ? last : last + 1;
 }
 
 }  // namespace hlc::record

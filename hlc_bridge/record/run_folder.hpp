@@ -17,7 +17,6 @@ struct RunFolder {
   scenario::Scenario scenario;
   result::RunDescription description;
   result::RunFacts facts;
-  std::vector<ReportRecord> reports;
   result::Drives drives;
   std::vector<result::StepRecord> rows;  ///< of step_records()
   std::vector<std::string> incomplete;   ///< of incomplete_files()
@@ -34,5 +33,9 @@ struct RunFolder {
 
 /// The same of a run whose configuration/flags.yaml must be there.
 [[nodiscard]] RunFolder read_run_folder(const std::filesystem::path& folder);
+
+/// How many steps are recorded from step 0 on; a last one whose rows are not all there, as when the
+/// run was killed, does not count.
+[[nodiscard]] std::uint64_t recorded_steps(const RunFolder& run);
 
 }  // namespace hlc::record

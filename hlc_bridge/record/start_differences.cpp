@@ -26,7 +26,7 @@ Flags flags_of(const fs::path& folder) {
   const Node file = Node::read_yaml(folder / "configuration" / "flags.yaml");
   Flags flags;
   for (const std::string& key : file.keys()) {
-    if (key == "scenario" || key == "map" || key == "dds_domain" || key == "forks") continue;
+    if (key == "scenario" || key == "map" || key == "dds_domain") continue;
     flags[key] = file.is_value(key) ? file.required<std::string>(key) : kNone;
   }
   std::vector<std::string> forks;

@@ -52,13 +52,6 @@ std::string gap_text(double gap, const std::string& unit) {
   return is_short ? fmt::format("{:.2g} mm", gap * 1e3) : fmt::format("{:.2g} {}", gap, unit);
 }
 
-std::string list_text(const std::vector<VehicleId>& ids) {
-  std::vector<unsigned> numbers;
-  for (const VehicleId id : ids) numbers.push_back(id.value);
-  return fmt::format("{} {}", numbers.size() == 1 ? "vehicle" : "vehicles",
-                     fmt::join(numbers, ", "));
-}
-
 bool contains(const std::vector<VehicleId>& ids, VehicleId id) {
   return std::ranges::find(ids, id) != ids.end();
 }
@@ -148,7 +141,8 @@ std::string decision_text(const Report& report) {
     why = coordination::to_string(report.reason);
   }
   if (!report.blocked_by.empty()) {
-    why += fmt::format("{}because of {}", why.empty() ? "" : ", ", list_text(report.blocked_by));
+    why += fmt::format("{}because of {}", why.empty() ? "" : ", ",
+                       coordination::vehicles_text(report.blocked_by));
   }
   return why.empty() ? text : fmt::format("{} ({})", text, why);
 }
@@ -156,7 +150,8 @@ std::string decision_text(const Report& report) {
 std::string waiting_text(const StepRecord& row) {
   const std::optional<std::uint64_t> since = waits_since(row);
   if (!since) return "for none";
-  return fmt::format("for {} since step {}", list_text(row.record.report.waiting.vehicles), *since);
+  return fmt::format("for {} since step {}",
+                     coordination::vehicles_text(row.record.report.waiting.vehicles), *since);
 }
 
 std::string quoted(const std::string& name) { return fmt::format("\"{}\"", escaped(name)); }
@@ -242,6 +237,12 @@ std::optional<Difference> first_difference(Rows a, Rows b) {
     if (first) return Difference{step, first_vehicle, std::move(first->text)};
   }
   return std::nullopt;
+}
+
+std::string text_of(const Difference& difference, double step_s) {
+  return fmt::format("step {} ({:.1f} s), vehicle {}: {}", difference.step,
+                     static_cast<double>(difference.step) * step_s, difference.vehicle.value,
+                     difference.text);
 }
 
 }  // namespace hlc::result

@@ -38,4 +38,7 @@ struct Difference {
 [[nodiscard]] std::optional<Difference> first_difference(std::span<const StepRecord> a,
                                                          std::span<const StepRecord> b);
 
+/// "step 57 (11.4 s), vehicle 3: input: ...".
+[[nodiscard]] std::string text_of(const Difference& difference, double step_s);
+
 }  // namespace hlc::result

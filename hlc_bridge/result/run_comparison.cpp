@@ -91,10 +91,7 @@ std::string result_line(const RunComparison& comparison) {
     return fmt::format("the runs are equal: {}, trace_sha256 {}", size_text(comparison.a),
                        summary.trace_sha256);
   }
-  const Difference& first = *comparison.first;
-  return fmt::format("the runs differ at step {} ({:.1f} s), vehicle {}: {}", first.step,
-                     static_cast<double>(first.step) * summary.description.step_s,
-                     first.vehicle.value, first.text);
+  return "the runs differ at " + text_of(*comparison.first, summary.description.step_s);
 }
 
 std::string ids_text(const std::vector<VehicleId>& ids) {

@@ -90,4 +90,9 @@ std::vector<StepRecord> step_records(std::span<const ReportRecord> reports, cons
   return sorted;
 }
 
+std::span<const StepRecord> rows_before(std::span<const StepRecord> rows, std::uint64_t step) {
+  const auto end = std::ranges::lower_bound(rows, step, {}, &StepRecord::step);
+  return rows.first(static_cast<std::size_t>(end - rows.begin()));
+}
+
 }  // namespace hlc::result

@@ -106,4 +106,8 @@ struct LoggedLine {
 [[nodiscard]] std::vector<StepRecord> step_records(std::span<const ReportRecord> reports,
                                                    const Drives& drives, const RunFacts& facts);
 
+/// Those of the steps before this one. @pre rows by step
+[[nodiscard]] std::span<const StepRecord> rows_before(std::span<const StepRecord> rows,
+                                                      std::uint64_t step);
+
 }  // namespace hlc::result

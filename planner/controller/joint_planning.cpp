@@ -17,13 +17,17 @@ std::vector<VehicleId> JointPlanning::prepare(const Controller& own) {
 bool JointPlanning::can_be_planned_for(const Controller& own,
                                        const coordination::Traffic& traffic) {
   if (!traffic.planning || !is_well_formed(*traffic.planning, traffic.step)) return false;
-  const Controller* replica = replica_of(own.options().vehicle);
+  const Controller* replica = replica_of(own.options().vehicle, own);
   return replica != nullptr && replica->planning_basis() == traffic.planning->basis;
 }
 
-Controller* JointPlanning::replica_of(VehicleId vehicle) {
+Controller* JointPlanning::replica_of(VehicleId vehicle, const Controller& own) {
   std::unique_ptr<Controller>& replica = replicas_[vehicle];
   if (!replica) replica = others_(vehicle);
+  const ControllerStrategies& rules = own.options().strategies;
+  if (replica && replica->options().strategies != rules) {
+    replica->coordinate_by(rules.plans_before, rules.coordination);
+  }
   return replica.get();
 }
 
@@ -31,7 +35,7 @@ bool JointPlanning::can_plan(VehicleId vehicle, const Controller& own) {
   const coordination::Traffic& traffic = own.traffic_of(vehicle);
   if (!traffic.planning) return false;
   if (vehicle == own.options().vehicle) return true;
-  Controller* replica = replica_of(vehicle);
+  Controller* replica = replica_of(vehicle, own);
   return replica != nullptr && replica->resume(traffic, own);
 }
 

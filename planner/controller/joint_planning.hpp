@@ -43,7 +43,7 @@ class JointPlanning {
 
  private:
   /// May be none.
-  [[nodiscard]] Controller* replica_of(VehicleId vehicle);
+  [[nodiscard]] Controller* replica_of(VehicleId vehicle, const Controller& own);
   [[nodiscard]] bool can_plan(VehicleId vehicle, const Controller& own);
   [[nodiscard]] std::vector<VehicleId> vehicles_that_matter(const Controller& own) const;
 

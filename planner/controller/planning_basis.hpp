@@ -16,8 +16,8 @@ namespace hlc::controller {
 [[nodiscard]] std::uint64_t digest_of(const automaton::Subgraph& subgraph);
 /// Of the permitted routes: paths, bounds, driving lines.
 [[nodiscard]] std::uint64_t digest_of(std::span<const road::DrivableRoute> routes);
-/// Of the rules by which a controller plans and coordinates, without its vehicle. A user's own rule
-/// counts as any other one of its kind.
+/// Of the rules by which a controller plans and coordinates, without its vehicle. A user's own
+/// function counts as any other one of its kind.
 [[nodiscard]] std::uint64_t digest_of(const ControllerOptions& options);
 
 }  // namespace hlc::controller

@@ -1,5 +1,8 @@
 #include "planner/coordination/report.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace hlc::coordination {
 
 const char* to_string(StepStatus status) {
@@ -54,6 +57,13 @@ const char* to_string(PlanQuality quality) {
       return "unproven";
   }
   return "unknown";
+}
+
+std::string vehicles_text(const std::vector<VehicleId>& vehicles) {
+  std::vector<int> numbers;
+  for (const VehicleId id : vehicles) numbers.push_back(id.value);
+  return fmt::format("{} {}", numbers.size() == 1 ? "vehicle" : "vehicles",
+                     fmt::join(numbers, ", "));
 }
 
 }  // namespace hlc::coordination

@@ -50,6 +50,9 @@ enum class PlanQuality : std::uint8_t {
 [[nodiscard]] const char* to_string(FallbackReason reason);
 [[nodiscard]] const char* to_string(PlanQuality quality);
 
+/// "vehicle 3", "vehicles 3, 5".
+[[nodiscard]] std::string vehicles_text(const std::vector<VehicleId>& vehicles);
+
 /// Result of one step of one vehicle. Nothing in it depends on a clock.
 struct Report {
   VehicleId vehicle;

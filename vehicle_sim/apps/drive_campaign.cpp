@@ -36,7 +36,8 @@ std::size_t drive_campaign(const campaign::Campaign& campaign, std::size_t jobs,
     }
     // Outside the try block: a folder or record that cannot be written is no failure of the run.
     if (keep_runs && driven) {
-      write_run_folder(folder_of_run(files, run), driven->scenario, driven->experiment);
+      write_run_folder(folder_of_run(files, run), driven->scenario, campaign.plan().noise_seed,
+                       driven->experiment);
     }
     if (result) {
       files.add(run, *result);

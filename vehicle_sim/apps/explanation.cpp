@@ -17,18 +17,11 @@ using coordination::StepStatus;
 /// Ways that differ by less are alike.
 constexpr double kStands_m = 1e-3;
 
-/// "vehicle 3", "vehicles 3, 5".
-std::string vehicles(const std::vector<VehicleId>& ids) {
-  std::vector<int> numbers;
-  for (const VehicleId id : ids) numbers.push_back(id.value);
-  return fmt::format("{} {}", numbers.size() == 1 ? "vehicle" : "vehicles",
-                     fmt::join(numbers, ", "));
-}
-
 /// Why the plan in force stayed.
 std::string reason_words(const Report& report) {
-  const std::string by =
-      report.blocked_by.empty() ? "" : " because of " + vehicles(report.blocked_by);
+  const std::string by = report.blocked_by.empty()
+                             ? ""
+                             : " because of " + coordination::vehicles_text(report.blocked_by);
   switch (report.reason) {
     case FallbackReason::kInfeasible:
       return by.empty() ? "no other plan is possible in its lanes and within its limits"
@@ -38,8 +31,9 @@ std::string reason_words(const Report& report) {
     case FallbackReason::kMissing:
       return by.empty() ? "no message was received" : "messages are missing" + by;
     case FallbackReason::kConflict:
-      return by.empty() ? "the new plan would have drifted into something"
-                        : "the new plan meets that of " + vehicles(report.blocked_by);
+      return by.empty()
+                 ? "the new plan would have drifted into something"
+                 : "the new plan meets that of " + coordination::vehicles_text(report.blocked_by);
     case FallbackReason::kNeighbour:
       return "a vehicle that planned with it fell back" + by;
     case FallbackReason::kDeviation:
@@ -103,9 +97,10 @@ void add_what_it_knew(const ExplainedStep& explained, Lines& lines) {
     lines.add("knew", "no other vehicle");
     return;
   }
-  lines.add("knew", report.missing.empty()
-                        ? "messages of all others: " + vehicles(explained.others)
-                        : "nothing of " + vehicles(report.missing) + " in this step");
+  lines.add("knew",
+            report.missing.empty()
+                ? "messages of all others: " + coordination::vehicles_text(explained.others)
+                : "nothing of " + coordination::vehicles_text(report.missing) + " in this step");
   if (report.coupled.empty()) {
     lines.add("", "none of them can come near within the horizon");
     return;
@@ -114,7 +109,7 @@ void add_what_it_knew(const ExplainedStep& explained, Lines& lines) {
       report.level == 0
           ? "planned before all of them"
           : fmt::format("planned on level {}, after those that plan before it", report.level);
-  lines.add("", "may come near: " + vehicles(report.coupled) + "; " + order);
+  lines.add("", "may come near: " + coordination::vehicles_text(report.coupled) + "; " + order);
 }
 
 }  // namespace

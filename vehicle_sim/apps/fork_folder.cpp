@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -19,8 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostSteps = 100'000;
 
-fs::path flags_file(const fs::path& folder) { return folder / "configuration" / "flags.yaml"; }
-
 std::vector<closed_loop::Fork> forks_of(const record::RunFolder& run) {
   std::vector<closed_loop::Fork> forks;
   for (const record::KeptFork& kept : record::kept_forks(run.folder)) {
@@ -36,9 +35,14 @@ std::vector<closed_loop::Fork> forks_of(const record::RunFolder& run) {
 
 /// Whether a folder can be made there: tried, as permissions do not show it everywhere (/proc).
 bool can_be_created(const fs::path& folder) {
+  fs::path first_new = fs::absolute(folder);
+  while (!fs::exists(first_new.parent_path())) first_new = first_new.parent_path();
   std::error_code error;
-  if (fs::create_directories(folder, error)) fs::remove(folder, error);
-  return !error;
+  const bool is_new = !fs::exists(folder, error);
+  fs::create_directories(folder, error);
+  const bool is_created = !error;
+  if (is_new) fs::remove_all(first_new, error);
+  return is_created;
 }
 
 }  // namespace
@@ -53,7 +57,7 @@ closed_loop::ExperimentOptions options_of_run(const record::RunFolder& run) {
                                             (run.folder / "run.json").string(), run.facts.steps,
                                             kMostSteps));
   }
-  const Node flags = Node::read_yaml(flags_file(run.folder));
+  const Node flags = Node::read_yaml(run.folder / "configuration" / "flags.yaml");
   closed_loop::ExperimentOptions options{.steps = run.facts.steps,
                                          .noise_seed = run.choices.noise_seed};
   options.gains = scaled(options.gains, flags.optional<double>("gains_scale", 1.0, at_least(0.0)));
@@ -66,23 +70,20 @@ closed_loop::ExperimentOptions options_of_run(const record::RunFolder& run) {
     options.forks = forks_of(run);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(
-        fmt::format("{}: forks: {}", flags_file(run.folder).string(), error.what()));
+        fmt::format("{}: {}", record::forks_file(run.folder).string(), error.what()));
   }
   return options;
 }
 
 void check_same_until(std::uint64_t step, const record::RunFolder& run,
                       std::span<const result::StepRecord> rows) {
-  const auto is_later = [step](const result::StepRecord& row) { return row.step >= step; };
-  std::vector<result::StepRecord> recorded = run.rows;
-  std::vector<result::StepRecord> driven(rows.begin(), rows.end());
-  std::erase_if(recorded, is_later);
-  std::erase_if(driven, is_later);
-  const auto difference = result::first_difference(recorded, driven);
+  const std::uint64_t until = std::min(step, record::recorded_steps(run));
+  const auto difference = result::first_difference(result::rows_before(run.rows, until),
+                                                   result::rows_before(rows, until));
   if (!difference) return;
-  throw std::invalid_argument(fmt::format(
-      "{}: driven again it differs from its record from step {} on, vehicle {}: {}",
-      run.folder.string(), difference->step, difference->vehicle.value, difference->text));
+  throw std::invalid_argument(fmt::format("{}: driven again it differs from its record from {}",
+                                          run.folder.string(),
+                                          result::text_of(*difference, run.description.step_s)));
 }
 
 fs::path fork_folder(const record::RunFolder& run, std::uint64_t from, const fs::path& out) {
@@ -111,7 +112,9 @@ void write_fork(const fs::path& folder, const record::RunFolder& run, std::uint6
              error);
   }
   if (error) throw std::runtime_error(folder.string() + ": " + error.message());
-  write_file(flags_file(folder), record::flags_with({.from = from, .set = set}, run.folder));
+  std::vector<record::KeptFork> forks = record::kept_forks(run.folder);
+  forks.push_back({.from = from, .set = set});
+  write_file(record::forks_file(folder), record::forks_yaml(forks));
   write_records(folder, experiment);
 }
 

@@ -38,32 +38,15 @@ struct Choices {
 
 using Rows = std::vector<hlc::result::StepRecord>;
 
-/// The rows of the steps before this one.
-Rows before(Rows rows, std::uint64_t step) {
-  std::erase_if(rows, [step](const hlc::result::StepRecord& row) { return row.step >= step; });
-  return rows;
-}
-
-std::string in_words(const hlc::result::Difference& difference, double step_s) {
-  return fmt::format("step {} ({:.1f} s), vehicle {}: {}", difference.step,
-                     step_s * static_cast<double>(difference.step), difference.vehicle.value,
-                     difference.text);
-}
-
-/// Steps of which all vehicles' rows are recorded, at most those that were requested.
-std::uint64_t recorded_steps(const hlc::record::RunFolder& run) {
-  return run.rows.empty() ? 0 : run.rows.back().step + 1;
-}
-
 void drove(std::uint64_t steps, std::size_t vehicles, double run_s, double wall_s) {
   std::cout << fmt::format("drove {} steps of {} vehicles in {:.2f} s ({:.0f} times real time)\n",
                            steps, vehicles, wall_s, run_s / wall_s);
 }
 
 int compare_with(const hlc::record::RunFolder& recorded, const Rows& rows, std::uint64_t steps) {
-  const Rows expected = before(recorded.rows, steps);
-  const std::uint64_t until = std::min(steps, recorded_steps(recorded));
-  const Rows driven = before(rows, until);
+  const std::uint64_t until = std::min(steps, hlc::record::recorded_steps(recorded));
+  const auto expected = hlc::result::rows_before(recorded.rows, until);
+  const auto driven = hlc::result::rows_before(rows, until);
   const std::string& ended = recorded.facts.reason;
   if (until < steps) {
     std::cout << fmt::format("{} of {} steps are recorded: {}\n", until, steps,
@@ -75,7 +58,7 @@ int compare_with(const hlc::record::RunFolder& recorded, const Rows& rows, std::
     return until < steps && ended.empty() ? kExitDiffers : hlc::kExitGood;
   }
   std::cout << "differs (record and replay) first at "
-            << in_words(*difference, recorded.description.step_s) << '\n'
+            << hlc::result::text_of(*difference, recorded.description.step_s) << '\n'
             << "trace_sha256: recorded " << hlc::result::trace_sha256(expected) << ", replayed "
             << hlc::result::trace_sha256(driven) << '\n';
   return kExitDiffers;
@@ -87,18 +70,19 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
   std::cout << fmt::format(
       "from step {} on: {}\n", *choices.from,
       choices.set.empty() ? "nothing changed" : fmt::format("{}", fmt::join(choices.set, ", ")));
-  const std::uint64_t until = std::min(steps, recorded_steps(recorded));
-  const auto difference =
-      hlc::result::first_difference(before(recorded.rows, until), before(rows, until));
+  const std::uint64_t until = std::min(steps, hlc::record::recorded_steps(recorded));
+  const auto run_rows = hlc::result::rows_before(recorded.rows, until);
+  const auto fork_rows = hlc::result::rows_before(rows, until);
+  const auto difference = hlc::result::first_difference(run_rows, fork_rows);
   if (difference) {
-    std::cout << "parts (run and fork) at " << in_words(*difference, recorded.description.step_s)
-              << '\n';
-    const bool is_same_way = hlc::result::trace_sha256(before(recorded.rows, until)) ==
-                             hlc::result::trace_sha256(before(rows, until));
+    std::cout << "parts (run and fork) at "
+              << hlc::result::text_of(*difference, recorded.description.step_s) << '\n';
+    const bool is_same_way =
+        hlc::result::trace_sha256(run_rows) == hlc::result::trace_sha256(fork_rows);
     std::cout << (is_same_way ? "all cars drive as before\n\n" : "\n");
   } else {
     std::cout << "the fork is the same as the run: trace_sha256 "
-              << hlc::result::trace_sha256(before(rows, until)) << "\n\n";
+              << hlc::result::trace_sha256(fork_rows) << "\n\n";
   }
   hlc::result::RunSummary summary =
       hlc::result::summarize(recorded.description, experiment.facts, rows, experiment.drives);
@@ -169,8 +153,9 @@ int main(int argc, char** argv) {
   app.footer(
       "Example: what if car 2 had gone first?\n"
       "  replay --run runs/one --from 40 --set priorities=2\n"
-      "Exit codes: 0 the same run, or a fork was driven; 1 the replay differs from the record; 2 "
-      "invalid input or an output that cannot be written.");
+      "Exit codes: 0 the same run, or a fork was driven; 1 the replay differs from the record, or "
+      "the record ends early without a reason; 2 invalid input or an output that cannot be "
+      "written.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   return hlc::apps::exit_code_of(
       "replay", [&] { return replay(choices); }, hlc::kExitBadInput);

@@ -1,5 +1,7 @@
 #include "vehicle_sim/apps/run_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -21,7 +23,8 @@ std::filesystem::path facts_file(const std::filesystem::path& folder) {
   return folder / "run.json";
 }
 
-void write_configuration(const std::filesystem::path& folder, const scenario::Scenario& scenario) {
+void write_configuration(const std::filesystem::path& folder, const scenario::Scenario& scenario,
+                         std::optional<std::uint64_t> noise_seed) {
   record::keep_configuration(folder, scenario::files_of(scenario));
   const bool is_drawn = !scenario.candidates.empty();
   const bool is_random = scenario.random_routes_on != nullptr;
@@ -39,17 +42,21 @@ void write_configuration(const std::filesystem::path& folder, const scenario::Sc
       .cars = if_any(is_drawn || !scenario.map_file, scenario.vehicles.size()),
       .seed = if_any(is_drawn || is_random, scenario.seed),
       .routes = if_any(is_random, std::string(scenario::kRandomRoutes))};
-  write_file(folder / "configuration" / "flags.yaml", record::flags_yaml(choices));
+  write_file(
+      folder / "configuration" / "flags.yaml",
+      record::flags_yaml(choices) +
+          fmt::format("noise_seed: {}\n", noise_seed ? fmt::to_string(*noise_seed) : "null"));
 }
 
 }  // namespace
 
 void write_run_folder(const std::filesystem::path& folder, const scenario::Scenario& scenario,
+                      std::optional<std::uint64_t> noise_seed,
                       const closed_loop::Experiment& experiment) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error(folder.string() + ": cannot be created");
-  write_configuration(folder, scenario);
+  write_configuration(folder, scenario, noise_seed);
   write_records(folder, experiment);
 }
 

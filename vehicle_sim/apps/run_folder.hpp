@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
@@ -11,7 +13,9 @@ namespace hlc::apps {
 /// run.json, reports.csv, vehicle_<id>.csv and configuration/. `summarize` and `export_commonroad`
 /// read it. An existing folder of an interrupted run is overwritten.
 /// @throws std::runtime_error naming the file that cannot be written
+/// @param noise_seed  ExperimentOptions::noise_seed
 void write_run_folder(const std::filesystem::path& folder, const scenario::Scenario& scenario,
+                      std::optional<std::uint64_t> noise_seed,
                       const closed_loop::Experiment& experiment);
 
 /// Its records only: run.json, reports.csv and vehicle_<id>.csv, in a folder that exists.

@@ -221,7 +221,9 @@ class Lab {
 
   /// @pre it is not gone
   Member& member_of(VehicleId vehicle) {
-    return *std::ranges::find(members_, vehicle.value, &Member::id);
+    const auto member = std::ranges::find(members_, vehicle.value, &Member::id);
+    HLC_DEMAND(member != members_.end(), vehicle.value);
+    return *member;
   }
 
   /// Applies what changes from this step on. @pre the experiment has begun

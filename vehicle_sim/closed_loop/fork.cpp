@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/scenario/profile.hpp"
 
@@ -17,18 +18,6 @@ namespace hlc::closed_loop {
 namespace {
 
 constexpr std::uint64_t kMostLostSteps = 100'000;
-
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts{""};
-  for (const char letter : text) {
-    if (letter == at) {
-      parts.emplace_back();
-    } else {
-      parts.back() += letter;
-    }
-  }
-  return parts;
-}
 
 template <class Number>
 std::optional<Number> number_in(const std::string& text) {

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
+#include "hlc_bridge/view/page_files.hpp"
 #include "tests/hlc_bridge/view/sample_run.hpp"
 
 namespace hlc::view {
@@ -20,6 +22,16 @@ result::ComparedRun compared(FinishedRun run, const std::string& name) {
           .rows = std::move(run.rows),
           .drives = std::move(run.drives),
           .incomplete = {}};
+}
+
+/// The settings of custom properties with this begin: "--car-0: #d55e00;", ...
+std::set<std::string> settings(const std::string& text, const std::string& begin) {
+  std::set<std::string> found;
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    const std::string one = text.substr(at, text.find_first_of(";)", at) - at + 1);
+    if (one.ends_with(';')) found.insert(one);  // no use: var(--car-0)
+  }
+  return found;
 }
 
 std::size_t occurrences(const std::string& text, const std::string& part) {
@@ -118,6 +130,15 @@ TEST(ComparisonPage, ARunWithoutStepsHasAPage) {
       result::compare(compared(sample_run(2, 0), "one"), compared(sample_run(2, 0), "two"), {});
   EXPECT_THAT(comparison_page(comparison, std::nullopt, std::nullopt),
               HasSubstr("No lanes and no driven path"));
+}
+
+TEST(ComparisonPage, HasTheColoursOfThePageOfARun) {
+  const std::string page = comparison_page(comparison_of(3, true), {}, {});
+  const std::string& css = page_files().at("page.css");
+  for (const char* begin : {"--car-", "--lane", "--bound", "--alarm", "--muted"}) {
+    EXPECT_EQ(settings(page, begin), settings(css, begin));
+    EXPECT_FALSE(settings(page, begin).empty());
+  }
 }
 
 }  // namespace

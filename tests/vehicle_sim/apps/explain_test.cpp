@@ -26,7 +26,7 @@ class Explain : public testing::Test {
          .cars = 10,
          .seed = 3});
     experiment() = closed_loop::drive_experiment(scenario, {.steps = 12});
-    write_run_folder(run(), scenario, experiment());
+    write_run_folder(run(), scenario, std::nullopt, experiment());
   }
   static void TearDownTestSuite() { fs::remove_all(run()); }
 

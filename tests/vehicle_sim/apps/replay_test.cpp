@@ -21,13 +21,17 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A run of 40 steps, in a folder as processes write it.
+constexpr std::uint64_t kNoiseSeed = 5;
+
+/// A run of 40 steps with measurement noise, in a folder as processes write it.
 class Replay : public testing::Test {
  protected:
   void SetUp() override {
     const scenario::Scenario scenario = scenario::read_scenario(
         {.file = test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
-    write_run_folder(run(), scenario, closed_loop::drive_experiment(scenario, {.steps = 40}));
+    write_run_folder(
+        run(), scenario, kNoiseSeed,
+        closed_loop::drive_experiment(scenario, {.steps = 40, .noise_seed = kNoiseSeed}));
   }
 
   [[nodiscard]] fs::path run() const { return folder_.path() / "one"; }
@@ -92,16 +96,20 @@ TEST_F(Replay, OfARunThatEndedEarlyComparesWhatIsRecorded) {
   EXPECT_THAT(output, HasSubstr("of 40 steps are recorded: reports.csv ends early"));
   change("run.json", "\"reason\": \"\"", "\"reason\": \"interrupted\"");
   EXPECT_EQ(replay("").exit_code, 0);
+  const std::size_t step = reports.find("\n20,");
+  std::ofstream(run() / "reports.csv") << reports.substr(0, reports.find('\n', step + 1) + 1);
+  EXPECT_EQ(replay("").exit_code, 0) << "only one of three vehicles has reported the last step";
+  EXPECT_EQ(replay("--from 30 --set speed=1:0.5").exit_code, 0);
   std::ofstream(run() / "reports.csv") << reports.substr(0, reports.find('\n') + 1);
   EXPECT_EQ(replay("").exit_code, 2) << "nothing to compare with";
 }
 
 TEST_F(Replay, OfARunWithBadFactsOrForksNamesTheFile) {
-  std::ofstream(run() / "configuration" / "flags.yaml", std::ios::app)
+  std::ofstream(run() / "configuration" / "forks.yaml")
       << "forks:\n  - from: 3\n    set: ['foo=3']\n";
   const test::Outcome forks = replay("");
   EXPECT_EQ(forks.exit_code, 2);
-  EXPECT_THAT(forks.output, HasSubstr("flags.yaml: forks: "));
+  EXPECT_THAT(forks.output, HasSubstr("forks.yaml: "));
   change("run.json", "\"steps\": 40", "\"steps\": 1000000");
   const test::Outcome steps = replay("");
   EXPECT_EQ(steps.exit_code, 2);
@@ -113,7 +121,7 @@ TEST_F(Replay, NoForkIsMadeOfARunThatIsNotReplayed) {
   change("reports.csv", ",planned,", ",fallback,");
   const auto [exit_code, output] = replay("--from 10 --set priorities=3");
   EXPECT_EQ(exit_code, 2) << output;
-  EXPECT_THAT(output, HasSubstr("differs from its record from step 0 on"));
+  EXPECT_THAT(output, HasSubstr("differs from its record from step 0 (0.0 s), vehicle 1"));
   EXPECT_FALSE(fs::exists(folder_.path() / "one_from_10"));
 }
 
@@ -128,7 +136,7 @@ TEST_F(Replay, RefusesWhatItCannotDriveInOneLineAndLeavesNoFolder) {
         Bad{"--from 3 --set criteria=1:J9", "J9"}, Bad{"--from 3 --until 2", "2 steps"},
         Bad{"--out /tmp/x", "--from"}, Bad{"--until 0", "--until"},
         Bad{"--from 3 --out " + run().string(), "new or empty"},
-        Bad{"--from 3 --out /proc/no", "--out"}, Bad{"--speed 3", "--speed"}}) {
+        Bad{"--from 3 --out /proc/no/such", "--out"}, Bad{"--speed 3", "--speed"}}) {
     const auto [exit_code, output] = replay(flags);
     EXPECT_EQ(exit_code, 2) << flags << '\n' << output;
     EXPECT_THAT(output, HasSubstr(named));

@@ -29,8 +29,8 @@ const scenario::Scenario& three_cars() {
   return kScenario;
 }
 
-Rows rows_of(const ExperimentOptions& options) {
-  const Experiment experiment = drive_experiment(three_cars(), options);
+Rows rows_of(const ExperimentOptions& options, const scenario::Scenario& scenario = three_cars()) {
+  const Experiment experiment = drive_experiment(scenario, options);
   EXPECT_EQ(experiment.facts.exit_code, 0) << experiment.facts.reason;
   return result::step_records(experiment.reports, experiment.drives, experiment.facts);
 }
@@ -98,7 +98,7 @@ TEST(Fork, ALostMessageIsMissedByItsReceiverOnlyAndOnlyThen) {
   }
 }
 
-TEST(Fork, AVehicleThatIsGoneIsInNoLaterStepAndTheOthersDriveOnAsIfItHadNeverBeenThere) {
+TEST(Fork, AVehicleThatIsGoneIsInNoLaterStepAndNobodyMissesIt) {
   constexpr std::uint64_t kFrom = 12;
   const Rows rows = with(kFrom, {Fork::Without{{2}}});
   for (const result::StepRecord& row : rows) {
@@ -129,13 +129,37 @@ TEST(Fork, AVehicleIsAsSlowAsItsLimitAndOthersAreNotLimited) {
   EXPECT_GT(longest_step_m(2), 0.6 * 0.2);
 }
 
-TEST(Fork, AnotherCoordinationHoldsFromItsStepOn) {
-  const std::uint64_t coupled = first_coupled(1, 2);
-  const auto agreed = scenario::coordination_rules().at("agreed");
-  const Rows rows = with(coupled, {Fork::Coordination{agreed}});
-  const auto difference = result::first_difference(as_it_was(), rows);
-  ASSERT_TRUE(difference);
-  EXPECT_GE(difference->step, coupled);
+TEST(Fork, FromTheFirstStepOnIsTheRunWithTheseRules) {
+  const auto run_with = [](const controller::ControllerStrategies& strategies) {
+    scenario::Scenario scenario = three_cars();
+    scenario.profile.strategies = strategies;
+    return rows_of({.steps = kSteps}, scenario);
+  };
+  controller::ControllerStrategies strategies = three_cars().profile.strategies;
+  strategies.coordination = controller::kAgreedCoordination;
+  const Rows agreed = with(0, {Fork::Coordination{strategies.coordination}});
+  EXPECT_FALSE(result::first_difference(agreed, run_with(strategies)));
+  EXPECT_TRUE(result::first_difference(agreed, as_it_was()));
+  strategies = three_cars().profile.strategies;
+  strategies.plans_before = coordination::PriorityRule({{3}, {2}});
+  const Rows reversed = with(0, {Fork::Priorities{{{3}, {2}}}});
+  EXPECT_FALSE(result::first_difference(reversed, run_with(strategies)));
+  EXPECT_TRUE(result::first_difference(reversed, as_it_was()));
+}
+
+// The controllers' replicas of the others used to keep the former order, so that nobody could plan
+// for anybody: all steps were sequential.
+TEST(Fork, WithAnotherOrderKeepsTwoRounds) {
+  scenario::Scenario two_rounds = three_cars();
+  two_rounds.rounds = controller::Rounds::kTwo;
+  const std::vector<Fork> forks{{.from = 10, .changes = {Fork::Priorities{{{3}, {2}}}}}};
+  // Without predictions only two rounds have the others' plans.
+  ExperimentOptions options{.steps = kSteps, .forks = forks};
+  options.rules.is_lost = [](const controller::Delivery& delivery) {
+    return delivery.kind == controller::MessageKind::kPrediction;
+  };
+  EXPECT_EQ(result::trace_sha256(rows_of(options, two_rounds)),
+            result::trace_sha256(rows_of({.steps = kSteps, .forks = forks})));
 }
 
 TEST(Fork, SeveralForksOfARunHoldTogetherWhateverTheirOrder) {

@@ -86,7 +86,7 @@ TEST_F(Compare, ADifferenceOfTheInputIsFoundWhereItIs) {
 }
 
 TEST_F(Compare, WhatOnlyTheStartHasDifferentIsNamedAndDoesNotCount) {
-  replace(copy_ / "configuration" / "flags.yaml", "seed: null", "seed: null\nnoise_seed: null");
+  replace(copy_ / "configuration" / "flags.yaml", "seed: null", "seed: null\nshare: null");
   replace(copy_ / "configuration" / "scenarios" / "paper_red_alone.yaml", "\n", "\n# edited\n");
   replace(copy_ / "configuration" / "flags.yaml", "routes: null", "routes: null\nstamps: exact");
   const Outcome outcome = compare(b_, copy_);
