@@ -177,7 +177,7 @@ int main(int argc, char** argv) {
       "up to this step, without them from there on.",
       "explain"};
   Choices choices;
-  app.add_option("--run", choices.run, "run folder")->required();
+  app.add_option("RUN,--run", choices.run, "run folder")->required();
   app.add_option("--vehicle", choices.vehicle, "id")
       ->required()
       ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
@@ -187,7 +187,7 @@ int main(int argc, char** argv) {
   app.add_option("--problems", choices.problems,
                  "folder for the step's planning problems, for plan_problem");
   app.footer(
-      "Example:\n  explain --run runs/one --vehicle 3 --step 57\n"
+      "Example:\n  explain runs/one --vehicle 3 --step 57\n"
       "Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   return hlc::apps::exit_code_of(

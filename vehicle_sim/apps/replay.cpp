@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
       "trace_sha256; with --from and --set it is a \"what if\" with a run folder of its own.",
       "replay"};
   Choices choices;
-  app.add_option("--run", choices.run, "run folder")->required();
+  app.add_option("RUN,--run", choices.run, "run folder")->required();
   app.add_option("--until", choices.until, "only the steps before this one")
       ->check(hlc::apps::whole(1, 100000));
   CLI::Option* const from =
@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
       ->needs(from);
   app.footer(
       "Example: what if car 2 had gone first?\n"
-      "  replay --run runs/one --from 40 --set priorities=2\n"
+      "  replay runs/one --from 40 --set priorities=2\n"
       "Exit codes: 0 the same run, or a fork was driven; 1 the replay differs from the record, or "
       "the record ends early without a reason; 2 invalid input or an output that cannot be "
       "written.");

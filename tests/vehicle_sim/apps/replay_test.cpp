@@ -36,7 +36,7 @@ class Replay : public testing::Test {
 
   [[nodiscard]] fs::path run() const { return folder_.path() / "one"; }
   [[nodiscard]] static test::Outcome replay(const fs::path& run, const std::string& flags) {
-    return test::run_program("replay --run " + run.string() + " " + flags);
+    return test::run_program("replay " + run.string() + " " + flags);
   }
   [[nodiscard]] test::Outcome replay(const std::string& flags) const {
     return replay(run(), flags);
