@@ -37,6 +37,8 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --dump-problems DIR     write each planning problem to a JSON file in this new or empty folder, for plan_problem; in
                           real time this may delay steps; requires --policy none if the scenario has a policy
   --page BOOL             true (default): the run folder gets run.html, the whole run to be watched in a browser
+  --messages BOOL         true (default): the run folder gets run.mcap, every message between the processes, for Foxglove,
+                          Lichtblick and the libraries of MCAP
   --view                  prints the address of a page on this machine that shows the run while it drives, best in real
                           time; the run is the same with it
   --out DIR               run folder (default: a new one in runs/)
@@ -55,7 +57,7 @@ fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
 simulated_time=true noise_seed="" gains_scale="" stamps="" on_death=stop transport=loopback dds_domain="" out="" preset=release
-bin="" build=true share="" page=true view=false
+bin="" build=true share="" page=true messages=true view=false
 startup_timeout_s=20
 while (($#)); do
   case "$1" in
@@ -76,13 +78,14 @@ while (($#)); do
   case "$name" in
     scenario | profile | engine | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
       simulated_time | noise_seed | gains_scale | stamps | on_death | transport | dds_domain | out | preset | bin | \
-      share | page | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+      share | page | messages | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
 done
 [[ $simulated_time == true || $simulated_time == false ]] ||
   fail "--simulated_time = $simulated_time, must be one of true, false"
 [[ $page == true || $page == false ]] || fail "--page = $page, must be one of true, false"
+[[ $messages == true || $messages == false ]] || fail "--messages = $messages, must be one of true, false"
 [[ $on_death == stop || ($on_death == continue && $simulated_time == false) ]] ||
   fail "--on_death = $on_death, must be stop, or in real time continue"
 [[ $transport == loopback || $transport == lab ]] || fail "--transport = $transport, must be one of loopback, lab"
@@ -307,7 +310,7 @@ for group in "${groups[@]}"; do
     pose+=${pose:+,}$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")
     [[ -z $noise_seed ]] || seeds+=${seeds:+,}$((noise_seed + id))
   done
-  vehicle=("${flags[@]}" --on_death "$on_death" --id "$group" --bin "$bin" "${choices[@]}"
+  vehicle=("${flags[@]}" --messages "$messages" --on_death "$on_death" --id "$group" --bin "$bin" "${choices[@]}"
     --startup_timeout_s $((startup_timeout_s + 10)) --pose "$pose" --stamps "$stamps")
   [[ -z $seeds ]] || vehicle+=(--noise_seed "$seeds")
   [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
@@ -316,7 +319,9 @@ for group in "${groups[@]}"; do
   children+=($!)
 done
 vehicles=("${children[@]}")
-with_me "$bin/lab_control" "${flags[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" --steps "$steps" \
+recorded=()
+$messages && recorded=(--messages "$out/messages")
+with_me "$bin/lab_control" "${flags[@]}" "${recorded[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" --steps "$steps" \
   --on_death "$on_death" --startup_timeout_s "$startup_timeout_s" </dev/null &
 children+=($!)
 lab_control=$!

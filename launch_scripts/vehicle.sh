@@ -36,6 +36,7 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
   --stamps NAME           of the simulated car: exact, or lab: 20 ms early and with the lab's tracking errors (default: as
                           the scenario's lab)
+  --messages BOOL         true: every message of these processes is recorded in --out (default: false)
   --on_death WHAT         stop (default): a process that is killed fails the run; continue: it may be restarted
   --only NAME             restart one process: hlc, middleware or vehicle. Omitted flags are those with
                           which the vehicle of the run in --out was started; a car keeps its last pose.
@@ -53,10 +54,10 @@ id="" scenario="" profile=default engine="" dump_problems="" subgraph="" policy=
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
-noise_seed="" gains_scale="" stamps="" on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
+noise_seed="" gains_scale="" stamps="" messages=false on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
 kept_flags=(id scenario profile engine dump_problems subgraph policy map cars seed routes simulated_time transport
   discovery_mode discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
-  controller_domain pose noise_seed gains_scale stamps on_death bin startup_timeout_s shared_by)
+  controller_domain pose noise_seed gains_scale stamps messages on_death bin startup_timeout_s shared_by)
 take_flags() {
   local name value
   while (($#)); do
@@ -91,6 +92,7 @@ case "$only" in
   "" | hlc | middleware | vehicle) ;;
   *) fail "--only = $only, must be one of hlc, middleware, vehicle" ;;
 esac
+[[ $messages == true || $messages == false ]] || fail "--messages = $messages, must be one of true, false"
 [[ $on_death == stop || $on_death == continue ]] || fail "--on_death = $on_death, must be one of stop, continue"
 [[ $id =~ ^[0-9]{1,2}(,[0-9]{1,2})*$ ]] || fail "--id = $id, must be in 1 ... 30"
 ids=()
@@ -175,6 +177,7 @@ fi
 
 common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transport="$transport"
   --startup_timeout_s="$startup_timeout_s")
+! $messages || common+=(--messages="$out/messages")
 for name in discovery_mode discovery_server_id discovery_server_ip discovery_server_port; do
   [[ -z ${!name} ]] || common+=("--$name=${!name}")
 done

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,7 @@ struct NetworkFlags {
   std::string discovery_server_ip;
   std::string discovery_server_port;
   int startup_timeout_s{30};
+  std::filesystem::path messages;
 
   void declare(CLI::App& app) {
     app.add_option("--simulated_time", simulated_time, "true: logical time, false: real time")
@@ -56,6 +58,9 @@ struct NetworkFlags {
                    "controllers wait for the start without a limit")
         ->capture_default_str()
         ->check(whole(1, 3600));
+    app.add_option("--messages", messages,
+                   "folder: every message that this process publishes is recorded there, in an MCAP "
+                   "file of its own; default: none");
   }
 
   /// The flags that do not concern a run.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/message_recording.hpp"
 #include "hlc_bridge/apps/process_per_vehicle.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
@@ -129,9 +130,11 @@ hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::Vehicle
 
 std::shared_ptr<hlc::process::HlcProcess> make_process(const Flags& flags,
                                                        const hlc::scenario::Scenario& scenario,
-                                                       int vehicle_id) {
+                                                       int vehicle_id,
+                                                       hlc::apps::MessageRecording& recording) {
   const hlc::VehicleId id{static_cast<std::uint8_t>(vehicle_id)};
   hlc::process::HlcProcessOptions options = process_options(flags, id);
+  options.on_published = recording.open(flags.network, options.node_id);
   if (!flags.is_scenario_given) {
     spdlog::info("{}: scenario {}", options.node_id, flags.scenario.file.string());
   }
@@ -178,9 +181,10 @@ int main(int argc, char** argv) {
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;
   const auto run = [&](int id, hlc::time::StopSignals& own_signals) {
-    return hlc::apps::run_program(
-        program, own_signals, [&] { return make_process(flags, *scenario, id); },
-        [](hlc::process::HlcProcess& process) { process.stop(); });
+    hlc::apps::MessageRecording recording;
+    return recording.close(hlc::apps::run_program(
+        program, own_signals, [&] { return make_process(flags, *scenario, id, recording); },
+        [](hlc::process::HlcProcess& process) { process.stop(); }));
   };
   return hlc::apps::process_per_vehicle(flags.vehicle_ids, signals, run);
 }

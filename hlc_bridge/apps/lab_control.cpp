@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/message_recording.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/lab_control/logical_run.hpp"
@@ -116,8 +117,13 @@ int main(int argc, char** argv) {
   if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) {
     return *code;
   }
-  return hlc::apps::run_program(
-      hlc::kLabControlName, signals,
-      [&] { return std::make_shared<hlc::process::LabControlProcess>(process_options(flags)); },
-      [](hlc::process::LabControlProcess& process) { process.interrupt(); });
+  hlc::apps::MessageRecording recording;
+  const auto make = [&] {
+    hlc::process::LabControlOptions options = process_options(flags);
+    options.on_published = recording.open(flags.network, hlc::kLabControlName, options.run.period);
+    return std::make_shared<hlc::process::LabControlProcess>(options);
+  };
+  return recording.close(hlc::apps::run_program(
+      hlc::kLabControlName, signals, make,
+      [](hlc::process::LabControlProcess& process) { process.interrupt(); }));
 }

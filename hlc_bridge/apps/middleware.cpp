@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/message_recording.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
@@ -96,8 +97,13 @@ int main(int argc, char** argv) {
   if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) {
     return *code;
   }
-  return hlc::apps::run_program(
-      "middleware", signals,
-      [&] { return std::make_shared<hlc::process::MiddlewareProcess>(process_options(flags)); },
-      [](hlc::process::MiddlewareProcess& process) { process.stop(); });
+  hlc::apps::MessageRecording recording;
+  const auto make = [&] {
+    hlc::process::MiddlewareOptions options = process_options(flags);
+    options.on_published = recording.open(flags.network, options.node_id);
+    return std::make_shared<hlc::process::MiddlewareProcess>(options);
+  };
+  return recording.close(hlc::apps::run_program(
+      "middleware", signals, make,
+      [](hlc::process::MiddlewareProcess& process) { process.stop(); }));
 }

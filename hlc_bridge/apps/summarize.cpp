@@ -1,13 +1,16 @@
 // Reads a run folder, writes steps.csv, timing.csv, summary.json, the run's configuration and
 // run.html, prints the table.
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/mcap/merge.hpp"
 #include "hlc_bridge/record/configuration.hpp"
 #include "hlc_bridge/record/log_files.hpp"
 #include "hlc_bridge/record/program.hpp"
@@ -73,6 +76,31 @@ void remove_old_page(const std::filesystem::path& run) {
   if (std::filesystem::is_regular_file(page_file(run))) std::filesystem::remove(page_file(run));
 }
 
+/// run.mcap of the parts that the processes recorded, if they did. They stay if one was cut off:
+/// its process may still publish. The result does not depend on it.
+/// @return whether there is nothing to write, or it is written
+bool write_messages(const std::filesystem::path& run) {
+  const std::filesystem::path folder = run / "messages";
+  try {
+    std::vector<std::filesystem::path> parts;
+    if (std::filesystem::is_directory(folder)) {
+      for (const auto& entry : std::filesystem::directory_iterator(folder)) parts.push_back(entry);
+    }
+    if (parts.empty()) return true;
+    std::ranges::sort(parts);
+    const hlc::mcap::Merged merged = hlc::mcap::merge(parts, {}, run / "run.mcap");
+    if (merged.cut_off.empty()) std::filesystem::remove_all(folder);
+    for (const std::filesystem::path& part : merged.cut_off) {
+      std::cerr << "summarize: " << part.string()
+                << ": ends early: its process was killed, or still publishes\n";
+    }
+    return true;
+  } catch (const std::exception& error) {
+    std::cerr << "summarize: no run.mcap: " << error.what() << '\n';
+    return false;
+  }
+}
+
 struct Choices {
   std::filesystem::path run;
   hlc::record::RunChoices given;
@@ -107,6 +135,9 @@ int summarize_run(const Choices& choices) {
     page.fault = faults_of(verdict, read.incomplete);
     has_page = write_page(run, read.scenario, std::move(page));
     if (!has_page && verdict.exit_code == hlc::kExitGood) verdict.exit_code = hlc::kExitBadInput;
+  }
+  if (!write_messages(run) && verdict.exit_code == hlc::kExitGood) {
+    verdict.exit_code = hlc::kExitBadInput;
   }
   std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
   if (has_page) std::cout << "the run as a page: " << page_file(run).string() << '\n';

@@ -7,14 +7,27 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hlc_bridge/dds/transport.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
+#include "planner/coordination/messages.hpp"
 
 namespace hlc::dds {
 
 class ParticipantCore;  // Fast DDS lives behind this
+
+/// A message as a writer published it.
+struct PublishedMessage {
+  DomainRole role{};         ///< of the domain
+  const std::string& topic;  ///< its name on the domain
+  const std::string& type;   ///< in IDL: "VehicleState", "hlc::TrafficMessage"
+  std::string_view cdr;      ///< with the encapsulation header
+  /// What it belongs to, if it has a stamp: an instant or a step of the run.
+  std::optional<Nanoseconds> time;
+  std::optional<StepIndex> step;
+};
 
 struct ParticipantOptions {
   std::string name;  ///< the process's node id: others see its presence under this name
@@ -33,6 +46,9 @@ struct ParticipantOptions {
   /// an invalid entry, or was lost (Reader::dropped, Reader::lost). It must only queue if log lines
   /// are themselves published on a topic.
   std::function<void(const std::string& line)> on_loss{};
+  /// Called for every message after it was accepted for publishing, on the publishing thread. It
+  /// must not wait.
+  std::function<void(const PublishedMessage& message)> on_published{};
 };
 
 /// One process on one domain: the entry to DDS, and the presence of others.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "hlc_bridge/dds/endpoint_qos.hpp"
+#include "hlc_bridge/dds/message_stamp.hpp"
 #include "hlc_bridge/dds/wire.hpp"
 #include "hlc_bridge/dds/writer_endpoint.hpp"
 
@@ -28,7 +29,9 @@ bool Writer<Message>::write(const Message& message) {
   }
   typename Wire<Message>::Type sample;
   to_wire(message, sample);
-  return endpoint_->write(&sample);
+  if (!endpoint_->write(&sample)) return false;
+  if (endpoint_->is_observed()) endpoint_->observe(&sample, stamp_of(message));
+  return true;
 }
 
 template <class Message>

@@ -12,6 +12,8 @@ WriterEndpoint::WriterEndpoint(std::shared_ptr<ParticipantCore> core, const std:
                                const fdds::TypeSupport& type, const EndpointQos& qos,
                                std::function<void()> on_matched_change)
     : core_{std::move(core)},
+      topic_{topic},
+      type_{type},
       peers_{EndpointPeers::create(core_, PeerKind::kReader, topic, std::move(on_matched_change))} {
   writer_ = core_->publisher().create_datawriter(&core_->topic(topic, type), writer_qos(qos), this,
                                                  fdds::StatusMask::publication_matched());
@@ -29,6 +31,22 @@ WriterEndpoint::~WriterEndpoint() {
   std::size_t removed = 0;
   writer_->clear_history(&removed);
   core_->publisher().delete_datawriter(writer_);
+}
+
+bool WriterEndpoint::is_observed() const {
+  return static_cast<bool>(core_->options().on_published);
+}
+
+void WriterEndpoint::observe(void* sample, const MessageStamp& stamp) const {
+  SerializedPayload payload(type_->getSerializedSizeProvider(sample)());
+  if (!type_->serialize(sample, &payload)) return;  // then it was not accepted either
+  core_->options().on_published(
+      {.role = core_->options().role,
+       .topic = topic_,
+       .type = type_.get_type_name(),
+       .cdr = {reinterpret_cast<const char*>(payload.data), payload.length},
+       .time = stamp.time,
+       .step = stamp.step});
 }
 
 void WriterEndpoint::on_publication_matched(fdds::DataWriter*,

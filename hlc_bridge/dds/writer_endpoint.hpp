@@ -6,6 +6,7 @@
 
 #include "hlc_bridge/dds/endpoint_peers.hpp"
 #include "hlc_bridge/dds/endpoint_qos.hpp"
+#include "hlc_bridge/dds/message_stamp.hpp"
 
 namespace hlc::dds {
 
@@ -21,6 +22,9 @@ class WriterEndpoint : private fdds::DataWriterListener {
 
   /// `sample` is of the type's generated class.
   bool write(void* sample) { return writer_->write(sample); }
+  /// For ParticipantOptions::on_published.
+  [[nodiscard]] bool is_observed() const;
+  void observe(void* sample, const MessageStamp& stamp) const;
   [[nodiscard]] const EndpointPeers& peers() const { return *peers_; }
 
  private:
@@ -28,6 +32,8 @@ class WriterEndpoint : private fdds::DataWriterListener {
                               const fdds::PublicationMatchedStatus& status) override;
 
   std::shared_ptr<ParticipantCore> core_;
+  std::string topic_;
+  fdds::TypeSupport type_;
   std::shared_ptr<EndpointPeers> peers_;
   fdds::DataWriter* writer_{};
 };

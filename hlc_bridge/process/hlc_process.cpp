@@ -72,7 +72,8 @@ dds::ParticipantOptions HlcProcess::on_domain(std::optional<int> domain, dds::Do
       .version = options_.version,
       .on_loss = [this](const std::string& line) {
         shell_.post(high_level_controller::LostMessage{line});
-      }};
+      },
+      .on_published = options_.on_published};
 }
 
 void HlcProcess::prepare_thread() const {

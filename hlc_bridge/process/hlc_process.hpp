@@ -23,6 +23,7 @@ struct HlcProcessOptions {
   /// which the others expect: the lab gives all controllers one node id.
   std::string node_id;
   std::string version{};  ///< ParticipantOptions::version
+  std::function<void(const dds::PublishedMessage&)> on_published{};  ///< ParticipantOptions
   dds::Transport transport{dds::Transport::kLab};
   dds::Domains domains;
   std::optional<dds::DiscoveryServer> discovery_server;

@@ -27,7 +27,8 @@ dds::ParticipantOptions on_domain(const LabControlOptions& options, dds::DomainR
           .discovery_server = lab ? options.discovery_server : std::nullopt,
           .peers = lab ? std::vector<std::string>{} : options.controller_peers,
           .version = options.version,
-          .on_loss = [](const std::string& line) { log(kLabControlName, machine::warning(line)); }};
+          .on_loss = [](const std::string& line) { log(kLabControlName, machine::warning(line)); },
+          .on_published = options.on_published};
 }
 
 std::optional<record::ReportFile> make_report_file(const std::filesystem::path& folder) {

@@ -25,6 +25,7 @@ namespace hlc::process {
 struct LabControlOptions {
   lab_control::LabRunSettings run;
   std::string version{};  ///< ParticipantOptions::version
+  std::function<void(const dds::PublishedMessage&)> on_published{};  ///< ParticipantOptions
   dds::Transport transport{dds::Transport::kLab};
   int lab_domain{};
   int controller_domain{};

@@ -32,7 +32,8 @@ dds::ParticipantOptions on_domain(const MiddlewareOptions& options, dds::DomainR
           .version = options.version,
           .on_loss = [id = options.node_id](const std::string& line) {
             spdlog::warn("{}: {}", id, line);
-          }};
+          },
+          .on_published = options.on_published};
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct MiddlewareOptions {
   /// 5.3). On the domains the process always has its vehicle's name (messages/node_names).
   std::string node_id;
   std::string version{};                  ///< ParticipantOptions::version
+  std::function<void(const dds::PublishedMessage&)> on_published{};  ///< ParticipantOptions
   std::vector<std::uint8_t> vehicle_ids;  ///< of its controllers; at least one
   dds::Transport transport{dds::Transport::kLab};
   int lab_domain{};

@@ -108,7 +108,8 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
             .discovery_server = options_.discovery_server,
             .version = options_.version,
             .on_loss =
-                [this](const std::string& line) { process::log(name_, machine::warning(line)); }},
+                [this](const std::string& line) { process::log(name_, machine::warning(line)); },
+            .on_published = options_.on_published},
            [this] { shell_.presence_changed(); }),
       ready_writer_(lab_, dds::topics::ready_status(), [this] { shell_.presence_changed(); }),
       request_writer_(lab_, dds::topics::parameter_request()),

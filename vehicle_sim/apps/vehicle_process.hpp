@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@ namespace hlc::apps {
 struct VehicleProcessOptions {
   std::vector<simulated_vehicle::SimulatedVehicleOptions> vehicles;  ///< at least one
   std::string version{};  ///< ParticipantOptions::version
+  std::function<void(const dds::PublishedMessage&)> on_published{};  ///< ParticipantOptions
   dds::Transport transport{dds::Transport::kLab};
   int lab_domain{};
   std::optional<dds::DiscoveryServer> discovery_server;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
+#include "hlc_bridge/apps/message_recording.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
 #include "vehicle_sim/apps/start_pose.hpp"
@@ -155,8 +156,14 @@ int main(int argc, char** argv) {
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) return *code;
-  return hlc::apps::run_program(
-      "vehicle_sim", signals,
-      [&] { return std::make_shared<hlc::apps::VehicleProcess>(process_options(flags)); },
-      [](hlc::apps::VehicleProcess& process) { process.stop(); });
+  hlc::apps::MessageRecording recording;
+  const auto make = [&] {
+    hlc::apps::VehicleProcessOptions options = process_options(flags);
+    options.on_published = recording.open(
+        flags.network, fmt::format("vehicle_sim_{}", fmt::join(flags.vehicle_ids, ",")));
+    return std::make_shared<hlc::apps::VehicleProcess>(options);
+  };
+  return recording.close(
+      hlc::apps::run_program("vehicle_sim", signals, make,
+                             [](hlc::apps::VehicleProcess& process) { process.stop(); }));
 }
