@@ -26,13 +26,15 @@ class MessageRecording {
   OnPublished open(const NetworkFlags& flags, const std::string& process,
                    Nanoseconds period = kLabPeriod) {
     if (flags.messages.empty()) return {};
-    recorder_ = std::make_shared<mcap::MessageRecorder>(mcap::MessageRecorder::Options{
-        .folder = flags.messages,
-        .process = process,
-        .definition_of = dds::type_definition,
-        .wall_time = time::real_time_now,
-        .is_logical = flags.simulated_time,
-        .on_failure = [process](const std::string& line) { spdlog::warn("{}: {}", process, line); }});
+    recorder_ = std::make_shared<mcap::MessageRecorder>(
+        mcap::MessageRecorder::Options{.folder = flags.messages,
+                                       .process = process,
+                                       .definition_of = dds::type_definition,
+                                       .wall_time = time::real_time_now,
+                                       .is_logical = flags.simulated_time,
+                                       .on_failure = [process](const std::string& line) {
+                                         spdlog::warn("{}: {}", process, line);
+                                       }});
     return [recorder = recorder_, period](const dds::PublishedMessage& message) {
       recorder->record({.topic = domain_name(message.role) + message.topic,
                         .type = message.type,

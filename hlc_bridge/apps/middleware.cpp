@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
     options.on_published = recording.open(flags.network, options.node_id);
     return std::make_shared<hlc::process::MiddlewareProcess>(options);
   };
-  return recording.close(hlc::apps::run_program(
-      "middleware", signals, make,
-      [](hlc::process::MiddlewareProcess& process) { process.stop(); }));
+  return recording.close(
+      hlc::apps::run_program("middleware", signals, make,
+                             [](hlc::process::MiddlewareProcess& process) { process.stop(); }));
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
@@ -21,6 +22,7 @@
 #include "hlc_bridge/result/driving_fault.hpp"
 #include "hlc_bridge/result/run_summary.hpp"
 #include "hlc_bridge/result/summary_table.hpp"
+#include "hlc_bridge/view/foxglove_channels.hpp"
 #include "hlc_bridge/view/run_page.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
@@ -54,20 +56,19 @@ std::string faults_of(const Verdict& verdict, const std::vector<std::string>& in
 
 std::filesystem::path page_file(const std::filesystem::path& run) { return run / "run.html"; }
 
-/// The result does not depend on the page: a failure is one line. @return whether it is written
-bool write_page(const std::filesystem::path& run, const hlc::scenario::Scenario& scenario,
-                hlc::view::FinishedRun page) {
-  try {
-    if (scenario.map_file) page.map = hlc::road::read_lanelet_map(*scenario.map_file);
-    page.log = hlc::record::read_logs(run / "logs", page.facts);
-    page.time = page.facts.simulated_time ? "logical time" : "real time";
-    page.revision = hlc::program_revision();
-    hlc::write_file(page_file(run), hlc::view::run_page(page));
-    return true;
-  } catch (const std::exception& error) {
-    std::cerr << "summarize: no run.html: " << error.what() << '\n';
-    return false;
-  }
+/// The run as pages and viewers show it.
+hlc::view::FinishedRun finished_run(const hlc::record::RunFolder& read, std::string fault) {
+  hlc::view::FinishedRun run{.description = read.description,
+                             .facts = read.facts,
+                             .rows = read.rows,
+                             .drives = read.drives,
+                             .map = std::nullopt,
+                             .log = hlc::record::read_logs(read.folder / "logs", read.facts),
+                             .time = read.facts.simulated_time ? "logical time" : "real time",
+                             .revision = hlc::program_revision(),
+                             .fault = std::move(fault)};
+  if (read.scenario.map_file) run.map = hlc::road::read_lanelet_map(*read.scenario.map_file);
+  return run;
 }
 
 /// The page of an earlier summary may show another result. @throws
@@ -76,28 +77,27 @@ void remove_old_page(const std::filesystem::path& run) {
   if (std::filesystem::is_regular_file(page_file(run))) std::filesystem::remove(page_file(run));
 }
 
-/// run.mcap of the parts that the processes recorded, if they did. They stay if one was cut off:
-/// its process may still publish. The result does not depend on it.
-/// @return whether there is nothing to write, or it is written
-bool write_messages(const std::filesystem::path& run) {
-  const std::filesystem::path folder = run / "messages";
-  try {
-    std::vector<std::filesystem::path> parts;
-    if (std::filesystem::is_directory(folder)) {
-      for (const auto& entry : std::filesystem::directory_iterator(folder)) parts.push_back(entry);
-    }
-    if (parts.empty()) return true;
-    std::ranges::sort(parts);
-    const hlc::mcap::Merged merged = hlc::mcap::merge(parts, {}, run / "run.mcap");
-    if (merged.cut_off.empty()) std::filesystem::remove_all(folder);
-    for (const std::filesystem::path& part : merged.cut_off) {
-      std::cerr << "summarize: " << part.string()
-                << ": ends early: its process was killed, or still publishes\n";
-    }
-    return true;
-  } catch (const std::exception& error) {
-    std::cerr << "summarize: no run.mcap: " << error.what() << '\n';
-    return false;
+/// The parts of run.mcap that the processes recorded; none: they did not.
+std::vector<std::filesystem::path> recorded_parts(const std::filesystem::path& run) {
+  std::vector<std::filesystem::path> parts;
+  if (!std::filesystem::is_directory(run / "messages")) return parts;
+  for (const auto& entry : std::filesystem::directory_iterator(run / "messages")) {
+    parts.push_back(entry);
+  }
+  std::ranges::sort(parts);
+  return parts;
+}
+
+/// The parts stay if one of them was cut off: its process may still publish.
+void write_messages(const std::filesystem::path& run,
+                    const std::vector<std::filesystem::path>& parts,
+                    const hlc::view::FinishedRun& finished) {
+  const hlc::mcap::Merged merged =
+      hlc::mcap::merge(parts, hlc::view::foxglove_channels(finished), run / "run.mcap");
+  if (merged.cut_off.empty()) std::filesystem::remove_all(run / "messages");
+  for (const std::filesystem::path& part : merged.cut_off) {
+    std::cerr << "summarize: " << part.string()
+              << ": ends early: its process was killed, or still publishes\n";
   }
 }
 
@@ -107,10 +107,28 @@ struct Choices {
   bool page{true};
 };
 
+/// What of the run folder shows the run.
+struct Shown {
+  bool page{};
+  bool messages{};
+};
+
+/// Writes what is asked for, and notes what it has written.
+void show(const Choices& choices, const hlc::view::FinishedRun& finished, Shown& shown) {
+  if (choices.page) {
+    hlc::write_file(page_file(choices.run), hlc::view::run_page(finished));
+    shown.page = true;
+  }
+  const std::vector<std::filesystem::path> parts = recorded_parts(choices.run);
+  if (parts.empty()) return;
+  write_messages(choices.run, parts, finished);
+  shown.messages = true;
+}
+
 /// Returns the exit code.
 int summarize_run(const Choices& choices) {
   const std::filesystem::path& run = choices.run;
-  hlc::record::RunFolder read = hlc::record::read_run_folder(run, choices.given);
+  const hlc::record::RunFolder read = hlc::record::read_run_folder(run, choices.given);
   for (const std::string& line : read.incomplete) {
     std::cerr << "summarize: " << run.string() << ": " << line << '\n';
   }
@@ -125,22 +143,16 @@ int summarize_run(const Choices& choices) {
   hlc::write_file(run / "summary.json", hlc::record::summary_json(summary));
   hlc::record::keep_configuration(run, hlc::scenario::files_of(read.scenario));
   Verdict verdict = verdict_on(summary);
-  bool has_page = false;
-  if (choices.page) {
-    hlc::view::FinishedRun page;
-    page.description = std::move(read.description);
-    page.facts = std::move(read.facts);
-    page.rows = std::move(read.rows);
-    page.drives = std::move(read.drives);
-    page.fault = faults_of(verdict, read.incomplete);
-    has_page = write_page(run, read.scenario, std::move(page));
-    if (!has_page && verdict.exit_code == hlc::kExitGood) verdict.exit_code = hlc::kExitBadInput;
-  }
-  if (!write_messages(run) && verdict.exit_code == hlc::kExitGood) {
-    verdict.exit_code = hlc::kExitBadInput;
+  Shown shown;
+  try {
+    show(choices, finished_run(read, faults_of(verdict, read.incomplete)), shown);
+  } catch (const std::exception& error) {  // the result does not depend on it
+    std::cerr << "summarize: " << error.what() << '\n';
+    if (verdict.exit_code == hlc::kExitGood) verdict.exit_code = hlc::kExitBadInput;
   }
   std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
-  if (has_page) std::cout << "the run as a page: " << page_file(run).string() << '\n';
+  if (shown.page) std::cout << "the run as a page: " << page_file(run).string() << '\n';
+  if (shown.messages) std::cout << "its messages: " << (run / "run.mcap").string() << '\n';
   if (!verdict.fault.empty()) std::cerr << "summarize: " << verdict.fault << '\n';
   return verdict.exit_code;
 }
@@ -148,7 +160,7 @@ int summarize_run(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Result of a run: table, summary.json, steps.csv, timing.csv, run.html.",
+  CLI::App app{"Result of a run: table, summary.json, steps.csv, timing.csv, run.html, run.mcap.",
                "summarize"};
   Choices choices;
   app.add_option("--run", choices.run, "run folder")->required();

@@ -49,9 +49,11 @@ MessageRecorder::~MessageRecorder() {
 
 void MessageRecorder::record(const PublishedMessage& message) {
   const Nanoseconds wall = options_.wall_time();
+  bool is_first{};  // of those that the writing thread will take: it wakes up for no other
   {
     const std::lock_guard lock{mutex_};
     if (is_closed_ || has_failed_) return;
+    is_first = bytes_.empty();
     if (bytes_.size() > kMostBytes) {
       has_failed_ = true;
       return;
@@ -64,17 +66,16 @@ void MessageRecorder::record(const PublishedMessage& message) {
                             .publish_time = wall,
                             .payload = message.cdr});
   }
-  changed_.notify_one();
+  if (is_first) changed_.notify_one();
 }
 
 std::uint16_t MessageRecorder::channel_of(const PublishedMessage& message) {
   const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
   const auto [found, is_new] = channels_.try_emplace(message.topic, id);
   if (is_new) {
-    append_schema(bytes_, id,
-                  {.name = message.type,
-                   .encoding = "omgidl",
-                   .text = options_.definition_of(message.type)});
+    append_schema(
+        bytes_, id,
+        {.name = message.type, .encoding = "omgidl", .text = options_.definition_of(message.type)});
     append_channel(bytes_, id,
                    {.schema = id,
                     .topic = message.topic,
@@ -90,29 +91,28 @@ void MessageRecorder::write_until_closed() {
     changed_.wait(lock, [this] { return is_closed_ || !bytes_.empty(); });
     changed_.wait_for(lock, kFlushInterval, [this] { return is_closed_; });
     std::string bytes;
-    bytes.reserve(bytes_.size());
     bytes.swap(bytes_);
+    bytes_.reserve(bytes.size());
     lock.unlock();
-    const bool is_written = write(bytes);
+    const int error = write(bytes);
     lock.lock();
-    has_failed_ = has_failed_ || !is_written;
+    has_failed_ = has_failed_ || error != 0;
     if (!has_failed_) continue;
-    if (options_.on_failure) {
-      options_.on_failure(fmt::format("{}: messages are no longer recorded: {}", file_.string(),
-                                      is_written ? "the disk is too slow" : std::strerror(errno)));
-    }
+    lock.unlock();
+    options_.on_failure(fmt::format("{}: messages are no longer recorded: {}", file_.string(),
+                                    error == 0 ? "the disk is too slow" : std::strerror(error)));
     return;
   }
 }
 
-bool MessageRecorder::write(std::string_view bytes) {
+int MessageRecorder::write(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return false;
+    if (count < 0) return errno;
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
-  return true;
+  return 0;
 }
 
 bool MessageRecorder::close() {

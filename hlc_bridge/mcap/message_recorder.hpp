@@ -43,7 +43,7 @@ class MessageRecorder {
     /// of the run is wall time.
     bool is_logical{};
     /// Called once, on the writing thread, with a line for the log.
-    std::function<void(const std::string& line)> on_failure;
+    std::function<void(const std::string& line)> on_failure = [](const std::string&) {};
   };
 
   /// Makes a file of its own: <process>.mcap, or <process>_2.mcap for a process started again, ...
@@ -65,8 +65,8 @@ class MessageRecorder {
  private:
   [[nodiscard]] std::uint16_t channel_of(const PublishedMessage& message);
   void write_until_closed();
-  /// @return whether it was written
-  bool write(std::string_view bytes);
+  /// @return errno, 0: all is written
+  [[nodiscard]] int write(std::string_view bytes);
 
   Options options_;
   std::filesystem::path file_;
@@ -74,7 +74,7 @@ class MessageRecorder {
 
   std::mutex mutex_;  ///< guards the following ones
   std::condition_variable changed_;
-  std::string bytes_;  ///< not yet written
+  std::string bytes_;                              ///< not yet written
   std::map<std::string, std::uint16_t> channels_;  ///< ids by topic
   std::map<std::uint16_t, std::uint32_t> sequences_;
   Nanoseconds newest_{};

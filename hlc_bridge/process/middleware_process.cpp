@@ -30,9 +30,8 @@ dds::ParticipantOptions on_domain(const MiddlewareOptions& options, dds::DomainR
           .lease = options.time.lease,
           .discovery_server = lab ? options.discovery_server : std::nullopt,
           .version = options.version,
-          .on_loss = [id = options.node_id](const std::string& line) {
-            spdlog::warn("{}: {}", id, line);
-          },
+          .on_loss =
+              [id = options.node_id](const std::string& line) { spdlog::warn("{}: {}", id, line); },
           .on_published = options.on_published};
 }
 

@@ -24,7 +24,7 @@ struct MiddlewareOptions {
   /// For the log, and in logical time the source_id of the timer's ready status (wire contract,
   /// 5.3). On the domains the process always has its vehicle's name (messages/node_names).
   std::string node_id;
-  std::string version{};                  ///< ParticipantOptions::version
+  std::string version{};  ///< ParticipantOptions::version
   std::function<void(const dds::PublishedMessage&)> on_published{};  ///< ParticipantOptions
   std::vector<std::uint8_t> vehicle_ids;  ///< of its controllers; at least one
   dds::Transport transport{dds::Transport::kLab};

@@ -163,7 +163,6 @@ int main(int argc, char** argv) {
         flags.network, fmt::format("vehicle_sim_{}", fmt::join(flags.vehicle_ids, ",")));
     return std::make_shared<hlc::apps::VehicleProcess>(options);
   };
-  return recording.close(
-      hlc::apps::run_program("vehicle_sim", signals, make,
-                             [](hlc::apps::VehicleProcess& process) { process.stop(); }));
+  return recording.close(hlc::apps::run_program(
+      "vehicle_sim", signals, make, [](hlc::apps::VehicleProcess& process) { process.stop(); }));
 }
