@@ -1,0 +1,110 @@
+#include "hlc_bridge/view/foxglove_channels.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/hlc_bridge/view/sample_run.hpp"
+
+namespace hlc::view {
+namespace {
+
+using Messages = std::vector<std::pair<Nanoseconds, nlohmann::json>>;
+
+/// Of one topic; all as JSON.
+Messages messages_of(const FinishedRun& run, const std::string& topic) {
+  Messages messages;
+  for (const mcap::JsonChannel& channel : foxglove_channels(run)) {
+    EXPECT_EQ(nlohmann::json::parse(channel.schema).at("title"), channel.type);
+    if (channel.topic != topic) continue;
+    for (const auto& [time, text] : channel.messages) {
+      messages.emplace_back(time, nlohmann::json::parse(text));
+    }
+  }
+  return messages;
+}
+
+Nanoseconds time_of(const nlohmann::json& stamp) {
+  return stamp.at("sec").get<Nanoseconds>() * 1'000'000'000 + stamp.at("nsec").get<Nanoseconds>();
+}
+
+TEST(FoxgloveChannels, EveryCarIsWhereItDroveEvery40Milliseconds) {
+  const FinishedRun run = sample_run(3, 10);
+  std::map<int, std::vector<Nanoseconds>> times;
+  for (const auto& [time, update] : messages_of(run, "scene/cars")) {
+    for (const auto& entity : update.at("entities")) {
+      const int id = std::stoi(entity.at("texts").at(0).at("text").get<std::string>());
+      EXPECT_EQ(entity.at("id"), "car " + std::to_string(id));
+      EXPECT_EQ(time_of(entity.at("timestamp")), time);
+      const result::Drive& drive = run.drives.at(static_cast<std::uint8_t>(id));
+      const auto pose = result::driven_pose_at(drive, time);
+      ASSERT_TRUE(pose);
+      const auto& cube = entity.at("cubes").at(0).at("pose");
+      EXPECT_DOUBLE_EQ(cube.at("position").at("x"), pose->x_m);
+      EXPECT_DOUBLE_EQ(cube.at("position").at("y"), pose->y_m);
+      const auto& turn = cube.at("orientation");
+      const double yaw = 2.0 * std::atan2(turn.at("z").get<double>(), turn.at("w").get<double>());
+      EXPECT_NEAR(std::remainder(yaw - pose->heading_rad, 2.0 * M_PI), 0.0, 1e-12);
+      times[id].push_back(time);
+    }
+  }
+  ASSERT_EQ(times.size(), 3U);
+  for (const auto& [id, of_car] : times) {
+    ASSERT_EQ(of_car.size(), 50U) << id;
+    for (std::size_t i = 1; i < of_car.size(); ++i) {
+      EXPECT_EQ(of_car[i] - of_car[i - 1], 40'000'000U);
+    }
+  }
+}
+
+TEST(FoxgloveChannels, EveryStepHasThePlannedPathOfEveryCarAndItsStatus) {
+  const FinishedRun run = sample_run(3, 10);
+  const Messages steps = messages_of(run, "scene/plans");
+  ASSERT_EQ(steps.size(), 10U);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    EXPECT_EQ(steps[k].first, (*run.facts.first_step + k) * run.facts.period);
+    const auto& entities = steps[k].second.at("entities");
+    ASSERT_EQ(entities.size(), 3U);
+    for (std::size_t i = 0; i < entities.size(); ++i) {
+      const coordination::Report& report = run.rows.at(3 * k + i).record.report;
+      const auto& path = entities[i].at("lines").at(0).at("points");
+      EXPECT_EQ(path.size(), std::min(run.description.horizon_steps + 1, steps.size() - k));
+      EXPECT_DOUBLE_EQ(path.at(0).at("x"), report.planned_pose.x_m);
+      EXPECT_EQ(entities[i].at("metadata").at(0).at("value"), to_string(report.status));
+      EXPECT_EQ(entities[i].at("lines").size(), k + 1 < steps.size() ? 2U : 1U);  // with its area
+    }
+  }
+}
+
+TEST(FoxgloveChannels, TheMapHasBothBoundsOfEveryLaneAndTheRoutes) {
+  const Messages map = messages_of(sample_run(3, 10), "scene/map");
+  ASSERT_EQ(map.size(), 1U);
+  const auto& entities = map.front().second.at("entities");
+  ASSERT_EQ(entities.size(), 4U);
+  EXPECT_EQ(entities.at(0).at("lines").size(), 6U);
+  EXPECT_EQ(entities.at(3).at("id"), "route 3");
+}
+
+TEST(FoxgloveChannels, LogLinesHaveTheirTimeIfItIsKnown) {
+  FinishedRun run = sample_run(1, 10);
+  run.log = {{.process = "middleware_1", .level = "warning", .text = "late", .run_s = 0.5},
+             {.process = "middleware_1", .level = "info", .text = "no time"}};
+  const Messages log = messages_of(run, "log");
+  ASSERT_EQ(log.size(), 1U);
+  EXPECT_EQ(log.front().first, *run.facts.first_step * run.facts.period + 500'000'000);
+  EXPECT_EQ(log.front().second.at("message"), "late");
+  EXPECT_EQ(log.front().second.at("level"), 3);
+}
+
+TEST(FoxgloveChannels, ARunThatNeverBeganHasAMapOnly) {
+  FinishedRun run = sample_run(2, 0);
+  run.facts.first_step.reset();
+  EXPECT_EQ(messages_of(run, "scene/map").size(), 1U);
+  EXPECT_TRUE(messages_of(run, "scene/cars").empty());
+  EXPECT_TRUE(messages_of(run, "scene/plans").empty());
+}
+
+}  // namespace
+}  // namespace hlc::view

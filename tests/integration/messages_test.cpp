@@ -1,0 +1,94 @@
+// The recording of all messages (run.mcap) of runs with real processes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/hlc_bridge/mcap/mcap_reader.hpp"
+#include "tests/integration/lab_processes.hpp"
+
+namespace hlc::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Vehicle and step of reports.
+using Reports = std::multiset<std::pair<int, std::uint64_t>>;
+
+Reports reports_in(const std::vector<McapMessage>& messages) {
+  Reports reports;
+  for (const McapMessage& message : messages) {
+    if (message.type != "hlc::ReportMessage") continue;
+    // Its first two members; the second is aligned after the encapsulation header of 4 bytes.
+    std::uint64_t step = 0;
+    std::memcpy(&step, message.payload.data() + 12, sizeof step);
+    reports.emplace(static_cast<unsigned char>(message.payload.at(4)), step);
+  }
+  return reports;
+}
+
+Reports reports_in(const std::filesystem::path& run_folder) {
+  Reports reports;
+  for (const ReportRecord& record : reports_so_far(run_folder)) {
+    reports.emplace(record.report.vehicle.value, record.report.step.value);
+  }
+  return reports;
+}
+
+std::string trace_of(LabProcesses& lab) {
+  lab.start_all();
+  EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
+  EXPECT_EQ(lab.summarize(), 0) << lab.log("summarize");
+  const std::string summary = read_text(lab.folder() / "summary.json");
+  return nlohmann::json::parse(summary, nullptr, false).value("trace_sha256", "");
+}
+
+TEST(Messages, OfEveryProcessAreRecordedAndTheRunIsTheSame) {
+  LabProcesses recorded({.records_messages = true});
+  LabProcesses plain({});
+  const std::string trace = trace_of(recorded);
+  EXPECT_EQ(trace, trace_of(plain));
+  EXPECT_NE(trace, "");
+  EXPECT_FALSE(std::filesystem::exists(plain.folder() / "run.mcap"));
+
+  const std::vector<McapMessage> messages = read_by_index(recorded.folder() / "run.mcap");
+  EXPECT_EQ(reports_in(messages), reports_in(recorded.folder()));
+  std::set<std::string> publishers;
+  std::map<std::string, std::vector<std::uint64_t>> ticks;
+  for (const McapMessage& message : messages) {
+    if (message.metadata.contains("publisher")) publishers.insert(message.metadata.at("publisher"));
+    if (message.type == "VehicleState") ticks[message.topic].push_back(message.log_time);
+  }
+  EXPECT_EQ(publishers.size(), recorded.names().size()) << testing::PrintToString(publishers);
+  EXPECT_EQ(ticks.size(), 3U);
+  for (const auto& [topic, times] : ticks) {
+    EXPECT_TRUE(std::ranges::is_sorted(times)) << topic;
+    EXPECT_GE(times.back(), 25 * 200'000'000U) << topic;  // the last step's begin
+  }
+  EXPECT_FALSE(std::filesystem::exists(recorded.folder() / "messages"));
+}
+
+TEST(Messages, OfProcessesThatAreKilledAreReadableUpToTheLastSecond) {
+  LabProcesses lab({.steps = 1000, .simulated_time = false, .records_messages = true});
+  lab.start_all();
+  ASSERT_TRUE(eventually(60s, [&] { return reports_so_far(lab.folder()).size() > 60; }));
+  for (const std::string& name : lab.names()) lab[name].send(SIGKILL);
+  EXPECT_THAT(lab.still_running_after(60s), testing::IsEmpty());
+  static_cast<void>(lab.summarize());
+  const Reports recorded = reports_in(read_by_index(lab.folder() / "run.mcap"));
+  Reports expected = reports_in(lab.folder());
+  std::uint64_t last = 0;
+  for (const auto& [vehicle, step] : expected) last = std::max(last, step);
+  std::erase_if(expected, [last](const auto& report) { return report.second + 5 > last; });
+  EXPECT_GT(expected.size(), 20U);
+  EXPECT_TRUE(std::ranges::includes(recorded, expected));
+  EXPECT_TRUE(std::filesystem::exists(lab.folder() / "messages/lab_control.mcap"));
+}
+
+}  // namespace
+}  // namespace hlc::test
