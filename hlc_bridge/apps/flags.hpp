@@ -58,9 +58,10 @@ struct NetworkFlags {
                    "controllers wait for the start without a limit")
         ->capture_default_str()
         ->check(whole(1, 3600));
-    app.add_option("--messages", messages,
-                   "folder: every message that this process publishes is recorded there, in an MCAP "
-                   "file of its own; default: none");
+    app.add_option(
+        "--messages", messages,
+        "folder: every message that this process publishes is recorded there, in an MCAP "
+        "file of its own; default: none");
   }
 
   /// The flags that do not concern a run.

@@ -134,7 +134,8 @@ std::shared_ptr<hlc::process::HlcProcess> make_process(const Flags& flags,
                                                        hlc::apps::MessageRecording& recording) {
   const hlc::VehicleId id{static_cast<std::uint8_t>(vehicle_id)};
   hlc::process::HlcProcessOptions options = process_options(flags, id);
-  options.on_published = recording.open(flags.network, options.node_id);
+  options.on_published =
+      recording.open(flags.network.messages, flags.network.simulated_time, options.node_id);
   if (!flags.is_scenario_given) {
     spdlog::info("{}: scenario {}", options.node_id, flags.scenario.file.string());
   }

@@ -120,7 +120,8 @@ int main(int argc, char** argv) {
   hlc::apps::MessageRecording recording;
   const auto make = [&] {
     hlc::process::LabControlOptions options = process_options(flags);
-    options.on_published = recording.open(flags.network, hlc::kLabControlName, options.run.period);
+    options.on_published = recording.open(flags.network.messages, flags.network.simulated_time,
+                                          hlc::kLabControlName, options.run.period);
     return std::make_shared<hlc::process::LabControlProcess>(options);
   };
   return recording.close(hlc::apps::run_program(

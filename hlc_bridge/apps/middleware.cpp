@@ -100,7 +100,8 @@ int main(int argc, char** argv) {
   hlc::apps::MessageRecording recording;
   const auto make = [&] {
     hlc::process::MiddlewareOptions options = process_options(flags);
-    options.on_published = recording.open(flags.network, options.node_id);
+    options.on_published =
+        recording.open(flags.network.messages, flags.network.simulated_time, options.node_id);
     return std::make_shared<hlc::process::MiddlewareProcess>(options);
   };
   return recording.close(

@@ -62,7 +62,7 @@ void MessageRecorder::record(const PublishedMessage& message) {
     if (message.run) newest_ = std::max(newest_, *message.run);
     append_message(bytes_, {.channel = channel,
                             .sequence = sequences_[channel]++,
-                            .log_time = options_.is_logical ? message.run.value_or(newest_) : wall,
+                            .log_time = message.run.value_or(newest_),
                             .publish_time = wall,
                             .payload = message.cdr});
   }

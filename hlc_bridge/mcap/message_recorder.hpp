@@ -21,7 +21,7 @@ struct PublishedMessage {
   std::string topic;               ///< with the domain's name: lab/vehicle/3/vehicleState
   std::string type;                ///< in IDL: VehicleState, hlc::TrafficMessage
   std::string_view cdr;            ///< with its encapsulation header
-  std::optional<Nanoseconds> run;  ///< time of the run to which it belongs, if it has one
+  std::optional<Nanoseconds> run;  ///< time of the run; none: the newest of its process's messages
 };
 
 /// Records what one process publishes, while it publishes it: an MCAP file without an index. After
@@ -39,9 +39,6 @@ class MessageRecorder {
     /// IDL of a type and of all that it uses.
     std::function<std::string(const std::string& type)> definition_of;
     std::function<Nanoseconds()> wall_time;
-    /// True: a message that has no time of the run gets the newest of its process. False: the time
-    /// of the run is wall time.
-    bool is_logical{};
     /// Called once, on the writing thread, with a line for the log.
     std::function<void(const std::string& line)> on_failure = [](const std::string&) {};
   };

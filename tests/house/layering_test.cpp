@@ -50,8 +50,9 @@ const std::vector<Outside> kOutside{
     {"^boost/(asio|beast)[/.].*", "^hlc_bridge/live/boost_beast.hpp",
      "Boost.Asio and Boost.Beast have one entry, hlc_bridge/live/boost_beast.hpp"},
     {"^(thread|mutex|condition_variable|future|chrono|iostream|ctime)$",
-     "^(hlc_bridge/(time|dds|process|record|doctor|live|apps)/.*|vehicle_sim/apps/.*|planner/apps/"
-     ".*)",
+     "^(hlc_bridge/(time|dds|process|record|doctor|live|apps)/.*|hlc_bridge/mcap/"
+     "message_recorder.*|"
+     "vehicle_sim/apps/.*|planner/apps/.*)",
      "planner, machines, results and the simulated vehicle know no clock, thread or console"},
 };
 

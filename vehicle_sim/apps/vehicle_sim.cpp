@@ -159,8 +159,9 @@ int main(int argc, char** argv) {
   hlc::apps::MessageRecording recording;
   const auto make = [&] {
     hlc::apps::VehicleProcessOptions options = process_options(flags);
-    options.on_published = recording.open(
-        flags.network, fmt::format("vehicle_sim_{}", fmt::join(flags.vehicle_ids, ",")));
+    options.on_published =
+        recording.open(flags.network.messages, flags.network.simulated_time,
+                       fmt::format("vehicle_sim_{}", fmt::join(flags.vehicle_ids, ",")));
     return std::make_shared<hlc::apps::VehicleProcess>(options);
   };
   return recording.close(hlc::apps::run_program(

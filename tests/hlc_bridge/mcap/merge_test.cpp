@@ -27,8 +27,7 @@ std::filesystem::path record_part(const std::filesystem::path& folder, const std
   MessageRecorder recorder({.folder = folder,
                             .process = process,
                             .definition_of = [](const std::string& type) { return "of " + type; },
-                            .wall_time = [&wall] { return wall; },
-                            .is_logical = true});
+                            .wall_time = [&wall] { return wall; }});
   for (std::size_t i = 0; i < count; ++i) {
     const std::string n = std::to_string(random() % 3);
     const std::string payload(random() % 50, 'x');

@@ -22,12 +22,11 @@ using testing::SizeIs;
 
 class MessageRecorderTest : public testing::Test {
  protected:
-  MessageRecorder::Options options(bool is_logical = true) {
+  MessageRecorder::Options options() {
     return {.folder = folder_ / "messages",
             .process = "car",
             .definition_of = [](const std::string& type) { return "of " + type; },
             .wall_time = [this] { return wall_.load(); },
-            .is_logical = is_logical,
             .on_failure = [this](const std::string& line) { failures_.push_back(line); }};
   }
   [[nodiscard]] std::vector<Nanoseconds> log_times(const std::filesystem::path& file) const {
@@ -41,7 +40,7 @@ class MessageRecorderTest : public testing::Test {
   std::vector<std::string> failures_;
 };
 
-TEST_F(MessageRecorderTest, InLogicalTimeAMessageWithoutAStampHasTheNewestOfItsProcess) {
+TEST_F(MessageRecorderTest, AMessageWithoutATimeHasTheNewestOfItsProcess) {
   MessageRecorder recorder(options());
   for (const std::optional<Nanoseconds> run :
        {std::optional<Nanoseconds>(), {5}, {}, {3}, {}, {9}}) {
@@ -49,15 +48,6 @@ TEST_F(MessageRecorderTest, InLogicalTimeAMessageWithoutAStampHasTheNewestOfItsP
   }
   EXPECT_TRUE(recorder.close());
   EXPECT_THAT(log_times(recorder.file()), ElementsAre(0U, 5U, 5U, 3U, 5U, 9U));
-}
-
-TEST_F(MessageRecorderTest, InRealTimeTheTimeOfTheRunIsWallTime) {
-  MessageRecorder recorder(options(false));
-  recorder.record({.topic = "a", .type = "A", .cdr = "x", .run = 5});
-  wall_ = 200;
-  recorder.record({.topic = "a", .type = "A", .cdr = "x", .run = {}});
-  EXPECT_TRUE(recorder.close());
-  EXPECT_THAT(log_times(recorder.file()), ElementsAre(100U, 200U));
 }
 
 TEST_F(MessageRecorderTest, HasTheMessagesOfAllThreadsEachTopicInOrder) {
