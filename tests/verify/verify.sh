@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks runs with CommonRoad's packages, in a virtual environment.
+# Checks runs with CommonRoad's packages, and the recording of messages of one with MCAP's, in a virtual environment.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -9,7 +9,8 @@ usage() {
 usage: verify.sh [--bin DIR] [--environment DIR] [--xml FILE] [RUN_FOLDER...]
 Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes. Without a run folder: drives
 paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, and paper_three_cars
-with real processes over DDS, checks all of them, and the negative controls of two.
+with real processes over DDS, checks all of them, and the negative controls of two; reads the recorded messages of the
+last one with the package mcap and, where npm is installed, decodes them by the types in the file as Foxglove does.
   --bin DIR           the programs (default build/release/bin)
   --environment DIR   folder of the virtual environment, created if missing (default build/release/verify_environment)
   --xml FILE          a CommonRoad file of the one run folder, as written by export_commonroad; default: its export
@@ -75,6 +76,15 @@ echo "Driving"
 drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle --subgraphs A,B,C,D \
   --profile default,2022 --keep_runs --scenario_folder "$root/launch_scripts/scenarios" --out "$out/campaign"
 drive "run_lab.sh" timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --out "$out/processes"
+timeout 60 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/messages.py" "$out/processes" || exit 1
+if command -v npm >/dev/null; then
+  cp "$here/package.json" "$here/messages.mjs" "$out"
+  if timeout 120 npm install --prefix "$out" --no-audit --no-fund --silent >"$out/log" 2>&1; then
+    timeout 60 node "$out/messages.mjs" "$out/processes/run.mcap" || exit 1
+  else
+    echo "verify.sh: types of messages not decoded, npm's packages not reachable" >&2
+  fi
+fi
 for ((i = 0; i < 16; i++)); do runs+=("$out/campaign/runs/$i"); done
 # Run 1 is paper_three_cars with subgraph B and the default profile; run 4, A with that of 2022, re-anchors plans.
 "${verify[@]}" --controls "$out/campaign/runs/1" --controls_reanchored "$out/campaign/runs/4" "${runs[@]}" "$out/processes"
