@@ -46,7 +46,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --startup_timeout_s N   startup timeout (default 20)
   --no_build              use the existing programs
   --bin DIR               use the programs in DIR, build nothing
-Exit codes: 0 success, 1 setup or build failed or --dump-problems is incomplete, 2 invalid input, 3 startup timeout,
+Exit codes: 0 success, 1 setup or build failed, or messages or --dump-problems are incomplete, 2 invalid input, 3 startup timeout,
             4 a process died during the run, 5 a vehicle left its plan or touched another one,
             6 all steps driven, but a vehicle was stuck at the end: it had waited for others for 20 s, 130 interrupted
 TEXT

@@ -87,7 +87,8 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::apps::whole(0, hlc::time::kMaxCore));
   flags.network.declare(app);
   app.footer(
-      "Exit codes: 0 success, 1 success, but --dump-problems is incomplete, 2 invalid input, 3 "
+      "Exit codes: 0 success, 1 success, but --dump-problems or --messages is incomplete, 2 "
+      "invalid input, 3 "
       "startup timeout, 4 the middleware or lab control died.");
 }
 

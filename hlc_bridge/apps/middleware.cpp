@@ -44,7 +44,9 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   app.add_flag("--keep_running", flags.keep_running,
                "wait for the next experiment after a stop (real time)");
-  app.footer("Exit codes: 0 success, 2 invalid input, 3 startup timeout, 4 the lab control died.");
+  app.footer(
+      "Exit codes: 0 success, 1 success, but --messages is incomplete, 2 invalid input, 3 startup "
+      "timeout, 4 the lab control died.");
 }
 
 hlc::process::MiddlewareOptions process_options(const Flags& flags) {
