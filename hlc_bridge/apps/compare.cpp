@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -41,8 +42,11 @@ int compare_runs(const std::filesystem::path& folder_a, const std::filesystem::p
                  const hlc::apps::OutputFile& html) {
   hlc::record::RunFolder a = hlc::record::read_run_folder(folder_a);
   hlc::record::RunFolder b = hlc::record::read_run_folder(folder_b);
-  hlc::apps::check_output_files({html}, {folder_a / "run.json", folder_a / "reports.csv",
-                                         folder_b / "run.json", folder_b / "reports.csv"});
+  if (html.file && (html.file->extension() != ".html" || html.file->filename() == "run.html")) {
+    throw std::invalid_argument("--html = " + html.file->string() +
+                                ", must end in .html, and not be the run.html of a run");
+  }
+  hlc::apps::check_output_files({html});
   std::vector<std::string> started = hlc::record::start_differences(a, b);
   const auto map_a = html.file ? map_of(a) : std::nullopt;
   const auto map_b = html.file ? map_of(b) : std::nullopt;
@@ -50,7 +54,7 @@ int compare_runs(const std::filesystem::path& folder_a, const std::filesystem::p
       hlc::result::compare(compared(std::move(a)), compared(std::move(b)), std::move(started));
   if (html.file) hlc::write_file(*html.file, hlc::view::comparison_page(comparison, map_a, map_b));
   std::cout << hlc::result::comparison_text(comparison);
-  return comparison.first ? kExitDifferent : hlc::kExitGood;
+  return comparison.are_equal() ? hlc::kExitGood : kExitDifferent;
 }
 
 }  // namespace

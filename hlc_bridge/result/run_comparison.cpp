@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
+
+#include "hlc_bridge/messages/exit_codes.hpp"
 
 namespace hlc::result {
 namespace {
@@ -87,11 +90,26 @@ std::string run_line(const char* which, const ComparedRun& run) {
 
 std::string result_line(const RunComparison& comparison) {
   const RunSummary& summary = comparison.a.summary;
+  if (!comparison.other_difference.empty()) {
+    return "the runs differ, though not in their steps: " + comparison.other_difference;
+  }
   if (!comparison.first) {
     return fmt::format("the runs are equal: {}, trace_sha256 {}", size_text(comparison.a),
                        summary.trace_sha256);
   }
   return "the runs differ at " + text_of(*comparison.first, summary.description.step_s);
+}
+
+std::string other_difference(const ComparedRun& a, const ComparedRun& b) {
+  if (is_driven_to_end(a.facts.exit_code) != is_driven_to_end(b.facts.exit_code)) {
+    const std::string& reason = a.facts.reason.empty() ? b.facts.reason : a.facts.reason;
+    return fmt::format("exit code {} and {}{}{}", a.facts.exit_code, b.facts.exit_code,
+                       reason.empty() ? "" : ": ", reason);
+  }
+  if (a.summary.trace_sha256 != b.summary.trace_sha256) {
+    return "what the vehicles drove between two of them";
+  }
+  return {};
 }
 
 std::string ids_text(const std::vector<VehicleId>& ids) {
@@ -144,8 +162,13 @@ std::string table_text(const ComparisonTable& table) {
 }  // namespace
 
 RunComparison compare(ComparedRun a, ComparedRun b, std::vector<std::string> started) {
+  if (a.rows.empty() && b.rows.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{} and {}: no vehicle started, must have steps to compare", a.name, b.name));
+  }
   std::optional<Difference> first = first_difference(a.rows, b.rows);
-  return {std::move(a), std::move(b), std::move(started), std::move(first)};
+  std::string other = first ? "" : other_difference(a, b);
+  return {std::move(a), std::move(b), std::move(started), std::move(first), std::move(other)};
 }
 
 std::vector<std::string> comparison_lines(const RunComparison& comparison) {

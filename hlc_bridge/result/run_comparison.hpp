@@ -24,7 +24,12 @@ struct RunComparison {
   ComparedRun a;
   ComparedRun b;
   std::vector<std::string> started;  ///< in what they were started differently, one line each
-  std::optional<Difference> first;   ///< of their rows; nothing: the runs are equal
+  std::optional<Difference> first;   ///< of their rows
+  /// In what runs with equal rows differ: whether all steps were driven, or what was driven between
+  /// two steps. Empty: in nothing.
+  std::string other_difference;
+
+  [[nodiscard]] bool are_equal() const { return !first && other_difference.empty(); }
 };
 
 /// Numbers of both runs as text.
@@ -34,8 +39,9 @@ struct ComparisonTable {
   std::vector<std::string> legend;             ///< what the columns mean, one line each
 };
 
-/// Compares rows; the rest is left as it is.
+/// Compares rows, and if they are equal how the runs ended and the hashes of their summaries.
 /// @param started  of record::start_differences
+/// @throws std::invalid_argument if neither run has a row
 [[nodiscard]] RunComparison compare(ComparedRun a, ComparedRun b, std::vector<std::string> started);
 
 /// The runs, how their starts differ, which records end early, and in the last line the first

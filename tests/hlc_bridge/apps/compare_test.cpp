@@ -143,8 +143,11 @@ TEST_F(Compare, RefusesAPageThatCannotBeWritten) {
   const Outcome outcome = compare(b_, d_, "--html " + (folder_ / "no" / "page.html").string());
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
-  const Outcome of_input = compare(b_, d_, "--html " + (b_ / "run.json").string());
-  EXPECT_EQ(of_input.exit_code, 2);
+  for (const char* record : {"run.json", "steps.csv", "run.html"}) {
+    const Outcome of_record = compare(b_, d_, "--html " + (b_ / record).string());
+    EXPECT_EQ(of_record.exit_code, 2);
+    EXPECT_THAT(of_record.output, HasSubstr("must end in .html, and not be the run.html of a run"));
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "planner/common/text_file.hpp"
 
 namespace hlc::result {
@@ -55,6 +56,35 @@ TEST(RunComparison, OfEqualRunsHasOneRowPerVehicle) {
   EXPECT_THAT(vehicle_table(comparison).rows,
               ElementsAre(ElementsAre("1 car", "both", "-", "3.000", "1.500", "-", "-", "0", "-"),
                           ElementsAre("2 car", "both", "-", "3.000", "1.500", "-", "-", "0", "-")));
+}
+
+TEST(RunComparison, RunsOfWhichOneWasNotDrivenToItsEndDiffer) {
+  ComparedRun interrupted = driven_run(2);
+  interrupted.facts.exit_code = kExitDied;
+  interrupted.facts.reason = "middleware_1 died";
+  const RunComparison comparison = compare(driven_run(2), interrupted, {});
+  EXPECT_FALSE(comparison.are_equal());
+  EXPECT_EQ(comparison_lines(comparison).back(),
+            "the runs differ, though not in their steps: exit code 0 and 4: middleware_1 died");
+  ComparedRun stuck = driven_run(2);
+  stuck.facts.exit_code = kExitStuck;
+  EXPECT_TRUE(compare(driven_run(2), stuck, {}).are_equal());
+}
+
+TEST(RunComparison, RunsThatDifferBetweenTwoStepsDiffer) {
+  ComparedRun other = driven_run(2);
+  other.summary.trace_sha256 = std::string(64, 'b');
+  const RunComparison comparison = compare(driven_run(2), other, {});
+  EXPECT_FALSE(comparison.are_equal());
+  EXPECT_THAT(comparison_lines(comparison).back(), HasSubstr("drove between two of them"));
+}
+
+TEST(RunComparison, RunsWithoutAnyStepAreRefused) {
+  ComparedRun none = driven_run(1);
+  none.rows.clear();
+  const auto compare_them = [&] { static_cast<void>(compare(none, none, {})); };
+  EXPECT_THAT(compare_them, testing::ThrowsMessage<std::invalid_argument>(
+                                "run and run: no vehicle started, must have steps to compare"));
 }
 
 TEST(RunComparison, NamesStepTimeAndVehicleOfTheFirstDifference) {
