@@ -21,9 +21,10 @@ std::filesystem::path log_in(const std::filesystem::path& folder) {
 
 std::vector<std::string> command_in(const std::filesystem::path& folder) {
   std::vector<std::string> command{
-      "/usr/bin/env", "HOME=" + folder.string(), needed_path_of("chromium", "chromium"),
-      "--headless", "--disable-gpu", "--disable-dev-shm-usage", "--disable-background-networking",
-      "--disable-breakpad", "--no-first-run", "--window-size=1200,800", "--remote-debugging-pipe",
+      "/usr/bin/env", "TMPDIR=" + folder.string(), "HOME=" + folder.string(),
+      needed_path_of("chromium", "chromium"), "--headless", "--disable-gpu",
+      "--disable-dev-shm-usage", "--disable-background-networking", "--disable-breakpad",
+      "--no-first-run", "--window-size=1200,800", "--remote-debugging-pipe",
       // No name is looked up; tests have servers on this machine.
       "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
       "--user-data-dir=" + (folder / "profile").string()};

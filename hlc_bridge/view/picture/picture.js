@@ -165,9 +165,11 @@ class Picture {
     context.transform(1, 0, 0, 1, 0, -kBar_px);
     this.map.draw({ t, selected: follow, follow: follow !== null, layers: kLayers });
     context.restore();
+    context.save();
     panel.ground();
     panel.title(run.about, t, this.speed === 1 ? "" : `speed ${this.speed}`);
     panel.cars(run, t, panel.legend());
+    context.restore();
   }
 
   /// @return the file in base64
