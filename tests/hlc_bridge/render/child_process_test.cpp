@@ -3,7 +3,9 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -40,17 +42,40 @@ TEST(ChildProcess, HasTheFilesThatItIsGivenAsItsFirstOnes) {
   EXPECT_TRUE(child.is_good_at_end());
 }
 
+/// Whether the last process that has the pipe's other end open has ended, after a minute at most.
+bool is_closed(const Pipe& pipe) {
+  pollfd end{.fd = pipe.out.number(), .events = 0, .revents = 0};
+  return ::poll(&end, 1, 60'000) == 1 && (end.revents & POLLHUP) != 0;
+}
+
 TEST(ChildProcess, EndsWithTheObjectAndItsOwnChildrenToo) {
   Pipe pipe = make_pipe();
   const Descriptor nothing = open_file("/dev/null", O_RDWR);
   std::optional<ChildProcess> child;
-  child.emplace(std::vector<std::string>{"/bin/sh", "-c", "sleep 1000 & echo $!; wait"},
+  child.emplace(std::vector<std::string>{"/bin/sh", "-c", "sleep 1000 & echo; wait"},
                 std::vector<int>{nothing.number(), pipe.in.number()});
   pipe.in.close();
-  std::array<char, 16> id{};
-  ASSERT_GT(::read(pipe.out.number(), id.data(), id.size()), 0);
+  char started{};
+  ASSERT_EQ(::read(pipe.out.number(), &started, 1), 1);
   child.reset();
-  EXPECT_EQ(everything_from(pipe.out), "") << "the pipe ends with the last process that has it";
+  EXPECT_TRUE(is_closed(pipe));
+}
+
+TEST(ChildProcess, EndsWithTheProgramThatStartedItEvenIfThatIsKilled) {
+  Pipe pipe = make_pipe();
+  const pid_t starter = ::fork();
+  if (starter == 0) {
+    const Descriptor nothing = open_file("/dev/null", O_RDWR);
+    const ChildProcess child({"/bin/sh", "-c", "echo; exec sleep 1000"},
+                             {nothing.number(), pipe.in.number()});
+    ::pause();
+  }
+  pipe.in.close();
+  char started{};
+  ASSERT_EQ(::read(pipe.out.number(), &started, 1), 1);
+  ::kill(starter, SIGKILL);
+  ::waitpid(starter, nullptr, 0);
+  EXPECT_TRUE(is_closed(pipe));
 }
 
 TEST(ChildProcess, AFailedProgramIsNotGoodAtItsEnd) {
