@@ -76,7 +76,11 @@ json Browser::value_of(const std::string& expression) {
 json Browser::call(const std::string& method, const json& parameters) {
   json command{{"id", ++last_id_}, {"method", method}, {"params", parameters}};
   if (!session_.empty()) command["sessionId"] = session_;
-  write_all(commands_.in, command.dump() + '\0');
+  try {
+    write_all(commands_.in, command.dump() + '\0');
+  } catch (const Fault&) {
+    report_end();
+  }
   while (true) {
     json answer = json::parse(next_message());
     if (answer.value("id", 0) != last_id_) continue;  // an event
@@ -93,9 +97,7 @@ std::string Browser::next_message() {
     wait_for_answer();
     std::array<char, 65536> buffer{};
     const ssize_t count = ::read(answers_.out.number(), buffer.data(), buffer.size());
-    if (count <= 0) {
-      throw Fault("Chromium has ended: " + last_line_of(log_in(folder_.path())));
-    }
+    if (count <= 0) report_end();
     const std::size_t known = received_.size();
     received_.append(buffer.data(), static_cast<std::size_t>(count));
     end = received_.find('\0', known);
@@ -103,6 +105,10 @@ std::string Browser::next_message() {
   std::string message = received_.substr(0, end);
   received_.erase(0, end + 1);
   return message;
+}
+
+void Browser::report_end() const {
+  throw Fault("Chromium has ended: " + last_line_of(log_in(folder_.path())));
 }
 
 void Browser::wait_for_answer() const {

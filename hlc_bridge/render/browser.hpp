@@ -36,6 +36,7 @@ class Browser {
  private:
   [[nodiscard]] std::string next_message();
   void wait_for_answer() const;
+  [[noreturn]] void report_end() const;
 
   TemporaryFolder folder_;
   int stop_;

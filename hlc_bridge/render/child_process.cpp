@@ -111,7 +111,7 @@ bool ChildProcess::is_good_at_end() {
 }
 
 std::string last_line_of(const std::filesystem::path& log) {
-  std::string last;
+  std::string last = "no message";
   for (const std::string& line : split(read_file(log), '\n')) {
     if (!line.empty()) last = line;
   }

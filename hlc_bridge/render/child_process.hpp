@@ -73,7 +73,7 @@ class ChildProcess {
   bool has_ended_{};
 };
 
-/// The last line that a program has written into its log; empty: none.
+/// The last line that a program has written into its log, or "no message".
 [[nodiscard]] std::string last_line_of(const std::filesystem::path& log);
 
 }  // namespace hlc::render

@@ -64,6 +64,6 @@ void Video::finish() {
   if (!process_.is_good_at_end()) fail();
 }
 
-void Video::fail() const { throw Fault("ffmpeg: " + last_line_of(log_)); }
+void Video::fail() const { throw Fault("ffmpeg has failed: " + last_line_of(log_)); }
 
 }  // namespace hlc::render

@@ -95,6 +95,8 @@ TEST(ChildProcess, TheLastLineOfItsLogIsTheLastThatIsNotEmpty) {
   const TemporaryFolder folder;
   write_file(folder / "log", "first\nlast\n\n");
   EXPECT_EQ(last_line_of(folder / "log"), "last");
+  write_file(folder / "log", "");
+  EXPECT_EQ(last_line_of(folder / "log"), "no message");
 }
 
 }  // namespace
