@@ -40,7 +40,7 @@ std::string path_of(const std::string& program) {
   const char* const folders = std::getenv("PATH");
   if (folders == nullptr) return "";
   for (const std::string& folder : split(folders, ':')) {
-    const std::string path = folder + "/" + program;
+    std::string path = folder + "/" + program;
     if (::access(path.c_str(), X_OK) == 0 && std::filesystem::is_regular_file(path)) return path;
   }
   return "";

@@ -123,19 +123,19 @@ bool is_run(const std::string& text) {
 class DrawRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    campaign_ = std::make_unique<TemporaryFolder>();
+    campaign = std::make_unique<TemporaryFolder>();
     const Outcome driven = run_program(
         "evaluate --scenario paper_three_cars --subgraphs B --starts 1 --steps 10 --keep_runs "
         "--scenario_folder " +
-        source_folder() + "/launch_scripts/scenarios --out " + (*campaign_ / "runs").string());
+        source_folder() + "/launch_scripts/scenarios --out " + (*campaign / "runs").string());
     ASSERT_EQ(driven.exit_code, 0) << driven.output;
   }
-  static void TearDownTestSuite() { campaign_.reset(); }
+  static void TearDownTestSuite() { campaign.reset(); }
 
   static bool can_draw() {
     return !render::path_of("chromium").empty() && !render::path_of("ffmpeg").empty();
   }
-  static fs::path run() { return *campaign_ / "runs" / "runs" / "0"; }
+  static fs::path run() { return *campaign / "runs" / "runs" / "0"; }
 
   [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] Outcome draw(const std::string& flags) const {
@@ -153,7 +153,7 @@ class DrawRun : public testing::Test {
   TemporaryFolder folder_;
 
  private:
-  inline static std::unique_ptr<TemporaryFolder> campaign_;
+  inline static std::unique_ptr<TemporaryFolder> campaign;
 };
 
 TEST_F(DrawRun, TheCarsAreInBothKindsOfPicturesWhereTheyDrove) {
@@ -267,10 +267,12 @@ TEST_F(DrawRun, FlagsAreRefusedInOneLine) {
 }
 
 TEST_F(DrawRun, AMissingProgramIsNamedWithItsPackage) {
-  const std::string path = std::getenv("PATH");
+  const char* const path = std::getenv("PATH");
+  ASSERT_NE(path, nullptr);
+  const std::string kept = path;
   ::setenv("PATH", "/nowhere", 1);
   const Outcome outcome = draw("--at 1 --out " + file("frame.png").string());
-  ::setenv("PATH", path.c_str(), 1);
+  ::setenv("PATH", kept.c_str(), 1);
   EXPECT_EQ(outcome.exit_code, kExitNotWritten);
   EXPECT_EQ(outcome.output,
             "draw_run: chromium is not installed: apt-get install chromium (Debian)\n");

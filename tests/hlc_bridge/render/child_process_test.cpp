@@ -69,6 +69,7 @@ TEST(ChildProcess, EndsWithTheProgramThatStartedItEvenIfThatIsKilled) {
     const ChildProcess child({"/bin/sh", "-c", "echo; exec sleep 1000"},
                              {nothing.number(), pipe.in.number()});
     ::pause();
+    ::_exit(1);
   }
   pipe.in.close();
   char started{};
