@@ -9,4 +9,7 @@ namespace hlc::view {
 /// finds them wherever it is copied.
 [[nodiscard]] const std::map<std::string, std::string>& page_files();
 
+/// Those of the folder `picture`.
+[[nodiscard]] const std::map<std::string, std::string>& picture_files();
+
 }  // namespace hlc::view

@@ -1,6 +1,7 @@
 #include "hlc_bridge/view/run_page.hpp"
 
 #include <array>
+#include <span>
 #include <string_view>
 
 #include "hlc_bridge/view/page_files.hpp"
@@ -13,12 +14,18 @@ namespace {
 /// Each after those that it imports.
 constexpr std::array kModules{"model.js", "words.js",    "draw.js", "timeline.js",
                               "panel.js", "controls.js", "main.js"};
+constexpr std::array kPictureModules{"model.js", "words.js", "draw.js", "svg.js", "picture.js"};
 constexpr std::string_view kExport = "export ";
 
-std::string as_one_script() {
+const std::string& module_of(const std::string& name) {
+  const auto file = page_files().find(name);
+  return file != page_files().end() ? file->second : picture_files().at(name);
+}
+
+std::string as_one_script(std::span<const char* const> modules) {
   std::string script;
-  for (const char* name : kModules) {
-    for (const std::string& line : split(page_files().at(name), '\n')) {
+  for (const char* name : modules) {
+    for (const std::string& line : split(module_of(name), '\n')) {
       if (line.starts_with("import ")) continue;
       script += line.starts_with(kExport) ? line.substr(kExport.size()) : line;
       script += '\n';
@@ -48,17 +55,25 @@ std::string escaped(const std::string& json) {
   return text;
 }
 
-}  // namespace
-
-std::string run_page(const FinishedRun& run) {
-  std::string page = page_files().at("run.html");
+/// @param page  the template
+std::string filled(std::string page, std::span<const char* const> modules, const FinishedRun& run) {
   replace(page, R"(<script type="module" src="main.js"></script>)",
-          "<script type=\"module\">\n" + as_one_script() + "</script>");
+          "<script type=\"module\">\n" + as_one_script(modules) + "</script>");
   replace(page, R"(<link rel="stylesheet" href="page.css">)",
           "<style>\n" + page_files().at("page.css") + "</style>");
   const std::string begin = R"(<script type="application/json" id="data">)";
   replace(page, begin + "[]", begin + escaped(page_messages(run)));
   return page;
+}
+
+}  // namespace
+
+std::string run_page(const FinishedRun& run) {
+  return filled(page_files().at("run.html"), kModules, run);
+}
+
+std::string picture_page(const FinishedRun& run) {
+  return filled(picture_files().at("picture.html"), kPictureModules, run);
 }
 
 std::string live_page() {

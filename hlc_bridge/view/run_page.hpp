@@ -14,6 +14,10 @@ namespace hlc::view {
 /// `<` is escaped, so that no name or message can end it.
 [[nodiscard]] std::string run_page(const FinishedRun& run);
 
+/// A page that shows nothing by itself, with the run in it: its script draws pictures of the run
+/// (picture/picture.js, `window.picture`), of the page's own map.
+[[nodiscard]] std::string picture_page(const FinishedRun& run);
+
 /// The page of a run under way: it loads its files from the server that it comes from, and connects
 /// to no other.
 [[nodiscard]] std::string live_page();

@@ -62,6 +62,7 @@ const Arrows kArrows{
     {"hlc_bridge/record", {"hlc_bridge/result", "hlc_bridge/messages", "planner"}},
     {"hlc_bridge/view",
      {"hlc_bridge/result", "hlc_bridge/mcap/merge.hpp", "hlc_bridge/messages", "planner"}},
+    {"hlc_bridge/render", {"planner/common"}},
     {"hlc_bridge/live",
      {"hlc_bridge/view", "hlc_bridge/messages", "hlc_bridge/dds", "hlc_bridge/time",
       "planner/common"}},

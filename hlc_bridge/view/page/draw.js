@@ -4,14 +4,14 @@ import { clamp, point_in } from "./model.js";
 import { state_of } from "./words.js";
 
 const kTrail_s = 4; // of the driven path
-const kBar_px = 36; // of the buttons above and below
+export const kBar_px = 36; // of the buttons above and below
 
 /// As the style sheet gives it, light or dark. @param name  such as "text", "car-0"
 export function colour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
 }
 
-const font_of = (size_px) => `600 ${size_px}px system-ui, sans-serif`;
+export const font_of = (size_px) => `600 ${size_px}px system-ui, sans-serif`;
 
 function path_through(points, closed) {
   const path = new Path2D();

@@ -67,14 +67,18 @@ void append(const std::vector<std::string>& portions, RunningServer& server) {
 class LiveInBrowser : public testing::Test {
  protected:
   void SetUp() override {
-    if (test::chromium().empty()) GTEST_SKIP() << "no chromium on this machine";
+    if (render::path_of("chromium").empty()) GTEST_SKIP() << "no chromium on this machine";
     browser_.emplace();
   }
   static std::string url_of(const RunningServer& server) {
     return "http://127.0.0.1:" + std::to_string(server.port()) + "/";
   }
 
-  std::optional<test::Browser> browser_;
+  [[nodiscard]] bool becomes_true(const std::string& expression) {
+    return test::becomes_true(*browser_, expression);
+  }
+
+  std::optional<render::Browser> browser_;
 };
 
 TEST_F(LiveInBrowser, TheNewestMomentIsShownAndTheCarsMove) {
@@ -82,17 +86,17 @@ TEST_F(LiveInBrowser, TheNewestMomentIsShownAndTheCarsMove) {
   RunningServer server;
   append(run.go_on(10), server);
   browser_->open(url_of(server));
-  ASSERT_TRUE(browser_->becomes_true("window.page && page.run.num_steps === 9"));
-  EXPECT_TRUE(browser_->becomes_true("Math.abs(page.player.t - 1.6) < 0.01"));
+  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps === 9"));
+  EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 1.6) < 0.01"));
   const std::string pose = "(page.run.driven_at(page.run.vehicles[0], page.player.t) || {x: 0}).x";
   const auto before = browser_->value_of(pose);
   append(run.go_on(10), server);
-  EXPECT_TRUE(browser_->becomes_true("Math.abs(page.player.t - 3.6) < 0.01"));
+  EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 3.6) < 0.01"));
   EXPECT_NE(browser_->value_of(pose), before);
   EXPECT_EQ(browser_->value_of("page.run.planned_path(page.run.vehicles[0], 0, 17).length > 100"),
             true)
       << "the maneuvers are known";
-  EXPECT_TRUE(browser_->becomes_true("document.getElementById('scrub').max > 3.7"));
+  EXPECT_TRUE(becomes_true("document.getElementById('scrub').max > 3.7"));
   EXPECT_EQ(browser_->value_of("document.getElementById('fault').textContent"), "");
 }
 
@@ -101,14 +105,14 @@ TEST_F(LiveInBrowser, WhoGoesBackStaysThereUntilLiveIsPressed) {
   RunningServer server;
   append(run.go_on(10), server);
   browser_->open(url_of(server));
-  ASSERT_TRUE(browser_->becomes_true("window.page && page.player.t > 1.5"));
+  ASSERT_TRUE(becomes_true("window.page && page.player.t > 1.5"));
   static_cast<void>(browser_->value_of("page.player.seek(0.4)"));
   append(run.go_on(10), server);
-  ASSERT_TRUE(browser_->becomes_true("document.getElementById('scrub').max > 3"));
+  ASSERT_TRUE(becomes_true("document.getElementById('scrub').max > 3"));
   EXPECT_EQ(browser_->value_of("page.player.t"), 0.4);
   EXPECT_EQ(browser_->value_of("document.getElementById('live').ariaPressed"), "false");
   static_cast<void>(browser_->value_of("document.getElementById('live').click()"));
-  EXPECT_TRUE(browser_->becomes_true("Math.abs(page.player.t - 3.6) < 0.01"));
+  EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 3.6) < 0.01"));
 }
 
 TEST_F(LiveInBrowser, WhyACarKeepsItsPlanOrWaitsIsNamedAsInAFinishedRun) {
@@ -116,7 +120,7 @@ TEST_F(LiveInBrowser, WhyACarKeepsItsPlanOrWaitsIsNamedAsInAFinishedRun) {
   RunningServer server;
   append(run.go_on(kSteps), server);
   browser_->open(url_of(server));
-  ASSERT_TRUE(browser_->becomes_true("window.page && page.run.num_steps > 110"));
+  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps > 110"));
   const auto state_at = [this](const std::string& t) {
     return browser_
         ->value_of("page.player.seek(" + t +
@@ -138,14 +142,14 @@ TEST_F(LiveInBrowser, ABrokenConnectionIsNamedAndNothingIsLostOrTwiceThere) {
   const std::uint16_t port = server->port();
   append(first, *server);
   browser_->open(url_of(*server));
-  ASSERT_TRUE(browser_->becomes_true("window.page && page.run.num_steps === 9"));
+  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps === 9"));
   server.reset();
-  EXPECT_TRUE(browser_->becomes_true(
+  EXPECT_TRUE(becomes_true(
       "document.getElementById('fault').textContent.startsWith('The connection is broken')"));
   server.emplace(std::chrono::seconds{20}, port);
   append(first, *server);
   append(then, *server);
-  ASSERT_TRUE(browser_->becomes_true("page.run.num_steps === 19"));
+  ASSERT_TRUE(becomes_true("page.run.num_steps === 19"));
   EXPECT_EQ(browser_->value_of("document.getElementById('fault').textContent"), "");
   EXPECT_EQ(browser_->value_of(
                 "page.run.vehicles.map((car) => car.drives.map(({states}) => states.length))"),
@@ -158,11 +162,11 @@ TEST_F(LiveInBrowser, AnotherRunAtTheSameAddressIsShownFromItsBegin) {
   const std::uint16_t port = server->port();
   append(SlowRun("first").go_on(10), *server);
   browser_->open(url_of(*server));
-  ASSERT_TRUE(browser_->becomes_true("window.page && document.title === 'Run of first'"));
+  ASSERT_TRUE(becomes_true("window.page && document.title === 'Run of first'"));
   server.reset();
   server.emplace(std::chrono::seconds{20}, port, "2");
   append(SlowRun("second").go_on(5), *server);
-  EXPECT_TRUE(browser_->becomes_true(
+  EXPECT_TRUE(becomes_true(
       "window.page && document.title === 'Run of second' && page.run.num_steps === 4"));
 }
 
@@ -171,11 +175,11 @@ TEST_F(LiveInBrowser, TheEndIsShown) {
   RunningServer server;
   append(run.go_on(5), server);
   browser_->open(url_of(server));
-  ASSERT_TRUE(browser_->becomes_true("window.page && page.run.num_steps === 4"));
+  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps === 4"));
   server.append(run.end());
   server.end();
-  EXPECT_TRUE(browser_->becomes_true(
-      "document.getElementById('fault').textContent === 'The run has ended.'"));
+  EXPECT_TRUE(
+      becomes_true("document.getElementById('fault').textContent === 'The run has ended.'"));
   EXPECT_EQ(browser_->value_of("page.run.num_steps"), 5);
 }
 

@@ -85,6 +85,20 @@ TEST(RunPage, ARunWithoutStepsHasAPage) {
   EXPECT_THAT(run_page(sample_run(2, 0)), HasSubstr("</html>"));
 }
 
+TEST(PicturePage, LoadsNothingAndNoNameEndsItsData) {
+  const std::string name = "</script><script>alert(1)</script><!--";
+  const std::string page = picture_page(sample_run(2, 20, name));
+  EXPECT_EQ(count(page, "</script"), 2U);
+  EXPECT_EQ(nlohmann::json::parse(data_of(page)).at(0).at("vehicles").at(0).at("name"), name);
+  EXPECT_THAT(page, Not(HasSubstr(" src=")));
+  EXPECT_THAT(page, Not(HasSubstr("stylesheet")));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  for (const std::string& line : split(page, '\n')) {
+    EXPECT_THAT(line, Not(StartsWith("import ")));
+    EXPECT_THAT(line, Not(StartsWith("export ")));
+  }
+}
+
 TEST(PageFiles, OfThePageAreSmallAndStandInItAsTheyAre) {
   std::size_t size = 0;
   for (const auto& [name, text] : page_files()) {
