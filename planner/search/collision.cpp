@@ -43,10 +43,9 @@ std::optional<Obstruction> obstruction_of(const automaton::Maneuver& maneuver, s
     }
   }
   place(maneuver.lane_area_m, start, placed);
-  const bool meets_boundary =
-      std::ranges::any_of(problem.boundary_m, [&placed](const Segment& segment) {
-        return intersects(placed, segment);
-      });
+  const bool meets_boundary = std::ranges::any_of(
+      problem.boundary_m,
+      [&placed](const Segment& segment) { return intersects(placed, segment); });
   return meets_boundary ? std::optional(Obstruction{}) : std::nullopt;
 }
 

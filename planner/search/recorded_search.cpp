@@ -14,8 +14,8 @@ RecordedSearch record_search(const automaton::Subgraph& subgraph,
   engine.record_in(&recorded.tree);
   recorded.result = engine.search(problem, never_stop);
   const auto& plan = recorded.result.maneuvers;
-  recorded.alternatives = alternatives_to(plan.empty() ? nullptr : plan.front(), subgraph,
-                                          reachable, options, problem);
+  recorded.alternatives =
+      alternatives_to(plan.empty() ? nullptr : plan.front(), subgraph, reachable, options, problem);
   return recorded;
 }
 

@@ -70,7 +70,8 @@ struct PlanCounts {
     const SearchTree& tree, const std::vector<const automaton::Maneuver*>& plan);
 
 /// At most `most` vertices to be shown of a large tree, sorted; with every vertex also its parent.
-/// First those that were taken from the open list, then the others, each in the order of generation.
+/// First those that were taken from the open list, then the others, each in the order of
+/// generation.
 [[nodiscard]] std::vector<std::uint32_t> vertices_to_show(const SearchTree& tree, std::size_t most);
 
 }  // namespace hlc::search

@@ -50,9 +50,7 @@ struct Case {
     recorded = record_search(subgraph, reachable, options, problem);
   }
 
-  [[nodiscard]] bool has_plan() const {
-    return recorded.result.status != SearchStatus::kFallback;
-  }
+  [[nodiscard]] bool has_plan() const { return recorded.result.status != SearchStatus::kFallback; }
   [[nodiscard]] const Frame& begin_of(const TreeVertex& vertex) const {
     return recorded.tree.vertices[vertex.parent].frame;
   }
@@ -195,13 +193,11 @@ TEST(RecordedSearch, TheRunnerUpIsTheBestOfAllPlansWithAnotherFirstManeuver) {
     truth.erase(first);
     for (const Engine engine : {Engine::kBestFirst, Engine::kBranchAndBound}) {
       options.engine = engine;
-      const auto alternatives =
-          alternatives_to(first, c.subgraph, c.reachable, options, c.problem);
+      const auto alternatives = alternatives_to(first, c.subgraph, c.reachable, options, c.problem);
       for (const Alternative& one : alternatives) {
         ASSERT_EQ(one.best.status == SearchStatus::kOptimal, truth.contains(one.first));
         if (!truth.contains(one.first)) continue;
-        ASSERT_EQ(
-            test::validate(one.best, c.subgraph, c.problem, options.criterion_weights), "");
+        ASSERT_EQ(test::validate(one.best, c.subgraph, c.problem, options.criterion_weights), "");
         ASSERT_NEAR(one.best.cost, truth.at(one.first), 1e-9);
         ASSERT_EQ(one.best.maneuvers.front(), one.first);
       }
@@ -252,9 +248,8 @@ TEST(RecordedSearch, WhatIsShownOfALargeTreeHoldsAllParentsAndWhatWasTakenFirst)
   for_each_case(test::num_seeds(20), [](const Case& c) {
     const std::vector<TreeVertex>& vertices = c.recorded.tree.vertices;
     ASSERT_EQ(vertices_to_show(c.recorded.tree, vertices.size()).size(), vertices.size());
-    const auto taken = static_cast<std::size_t>(std::ranges::count_if(vertices, [](const auto& v) {
-      return v.fate != Fate::kBound && v.fate != Fate::kOpen;
-    }));
+    const auto taken = static_cast<std::size_t>(std::ranges::count_if(
+        vertices, [](const auto& v) { return v.fate != Fate::kBound && v.fate != Fate::kOpen; }));
     for (const std::size_t most : {std::size_t{1}, std::size_t{5}, taken}) {
       const std::vector<std::uint32_t> shown = vertices_to_show(c.recorded.tree, most);
       ASSERT_EQ(shown.size(), std::min(most, vertices.size()));
