@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <functional>
+#include <numeric>
 #include <vector>
 
 #include "planner/geometry/footprint.hpp"
@@ -215,20 +216,30 @@ Eigen::AlignedBox2d extent_m(const search::HorizonProblem& problem, const Record
   return box_m;
 }
 
-std::string occupied_on_map(const OccupiedAreas& occupied, const Eigen::AlignedBox2d& box_m) {
-  std::string areas;
-  std::string labels;
-  for (std::size_t i = 0; i < occupied.areas.size(); ++i) {
-    const ConvexPolygon& area_m = occupied.areas[i].area_m;
-    areas += area("class=\"obstacle\"", area_m);
-    Point middle_m = Point::Zero();
-    for (const Point& corner_m : area_m.vertices_m) middle_m += corner_m;
-    middle_m /= static_cast<double>(area_m.vertices_m.size());
-    if (!box_m.contains(middle_m)) continue;
-    labels += fmt::format("<text x=\"{:.3f}\" y=\"{:.3f}\">{}</text>\n", middle_m.x(),
-                          -middle_m.y(), i + 1);
+Point middle_of(const ConvexPolygon& area_m) {
+  Point sum_m = Point::Zero();
+  for (const Point& corner_m : area_m.vertices_m) sum_m += corner_m;
+  return sum_m / static_cast<double>(area_m.vertices_m.size());
+}
+
+/// Numbers, unless they would cover that of an area which ruled out more.
+std::string numbers_on_map(const OccupiedAreas& occupied, const Eigen::AlignedBox2d& box_m) {
+  const double apart_m = 0.03 * box_m.sizes().maxCoeff();
+  std::vector<std::size_t> order(occupied.areas.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater{},
+                           [&occupied](std::size_t i) { return occupied.areas[i].dropped; });
+  std::string svg;
+  std::vector<Point> taken_m;
+  for (const std::size_t i : order) {
+    const Point at_m = middle_of(occupied.areas[i].area_m);
+    const bool is_covered = std::ranges::any_of(
+        taken_m, [&](const Point& other_m) { return (other_m - at_m).norm() < apart_m; });
+    if (is_covered || !box_m.contains(at_m)) continue;
+    taken_m.push_back(at_m);
+    svg += fmt::format("<text x=\"{:.3f}\" y=\"{:.3f}\">{}</text>\n", at_m.x(), -at_m.y(), i + 1);
   }
-  return areas + labels;
+  return svg;
 }
 
 }  // namespace
@@ -261,7 +272,7 @@ std::string search_map(const scenario::ProblemFile& file, const RecordedSearch& 
       "<svg class=\"map\" role=\"img\" aria-label=\"explored motions, obstacles, plan\" "
       "viewBox=\"{:.3f} {:.3f} {:.3f} {:.3f}\" font-size=\"{:.4f}\">\n",
       box_m.min().x(), -box_m.max().y(), box_m.sizes().x(), box_m.sizes().y(), 0.022 * size_m);
-  svg += occupied_on_map(occupied, box_m);
+  for (const OccupiedArea& one : occupied.areas) svg += area("class=\"obstacle\"", one.area_m);
   for (const Segment& segment : problem.boundary_m) {
     svg += path("class=\"boundary\"", places_of({segment.from_m, segment.to_m}));
   }
@@ -276,7 +287,8 @@ std::string search_map(const scenario::ProblemFile& file, const RecordedSearch& 
   if (const auto* second = runner_up(recorded.alternatives)) {
     svg += plan_on_map("second", second->best, problem.start, false);
   }
-  return svg + plan_on_map("winner", recorded.result, problem.start, true) + "</svg>\n";
+  svg += plan_on_map("winner", recorded.result, problem.start, true);
+  return svg + numbers_on_map(occupied, box_m) + "</svg>\n";
 }
 
 }  // namespace hlc::plot

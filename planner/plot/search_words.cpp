@@ -38,9 +38,8 @@ std::string without_plan(const scenario::ProblemFile& file, const RecordedSearch
 }
 
 std::string plan_line(const scenario::ProblemFile& file, const search::SearchResult& plan) {
-  std::string line =
-      fmt::format("The plan found costs {} m² and begins with {}: ", cost_text(plan.cost),
-                  name_of(*plan.maneuvers.front()));
+  std::string line = fmt::format("The plan found begins with {} and costs {} m²: ",
+                                 name_of(*plan.maneuvers.front()), cost_text(plan.cost));
   line += plan.status == SearchStatus::kOptimal
               ? "no plan costs less."
               : fmt::format(
@@ -58,14 +57,17 @@ std::string runner_up_line(const RecordedSearch& recorded) {
   const bool is_exact = std::ranges::none_of(recorded.alternatives, [](const Alternative& one) {
     return one.best.status == SearchStatus::kBudget || one.best.reason == NoPath::kBudget;
   });
-  const std::string caveat = is_exact ? "" : " A search of these stopped early.";
-  if (second == nullptr)
-    return "Runner-up: none, no other first maneuver leads to a plan." + caveat;
+  const std::string caveat =
+      is_exact ? "" : " A search for these stopped early: a better one may exist.";
+  if (second == nullptr) {
+    return "Runner-up: none, no plan was found with another first maneuver." + caveat;
+  }
+  const double extra_m2 = second->best.cost - recorded.result.cost;
   return fmt::format(
-      "Runner-up: the best plan with another first maneuver begins with {} and costs "
-      "{} m², {:+.4g} m².{}",
-      name_of(*second->first), cost_text(second->best.cost),
-      second->best.cost - recorded.result.cost, caveat);
+      "Runner-up: the best plan with another first maneuver begins with {} and costs {} m², "
+      "{:.4g} m² {}.{}",
+      name_of(*second->first), cost_text(second->best.cost), std::abs(extra_m2),
+      extra_m2 < 0.0 ? "less" : "more", caveat);
 }
 
 std::string counts_line(const search::PlanCounts& counts) {
@@ -123,9 +125,9 @@ std::string outcome_of(const Alternative& alternative, const search::HorizonProb
   }
   switch (alternative.best.status) {
     case SearchStatus::kOptimal:
-      return "free; no plan behind it costs less";
+      return "free";
     case SearchStatus::kBudget:
-      return "free; the search behind it stopped early";
+      return "free; the search behind it stopped early: a better plan may exist";
     default:
       return alternative.best.reason == NoPath::kBudget
                  ? "free; the search behind it stopped early, without a plan"

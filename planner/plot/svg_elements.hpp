@@ -8,7 +8,7 @@
 /// The SVG elements of plots, at places in pixels (x to the right, y down).
 namespace hlc::plot::svg {
 
-/// The text with & < > " as entities, also for HTML.
+/// The text with & < > as entities, for text between tags, also of HTML.
 [[nodiscard]] std::string escaped(const std::string& text);
 
 /// @param anchor  start, middle or end: the part of the text at the place
