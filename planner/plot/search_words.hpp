@@ -32,7 +32,7 @@ namespace hlc::plot {
                                      const OccupiedAreas& occupied);
 
 /// Terms and their meaning for a reader who sees a search for the first time.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kSearchTerms{{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kSearchTerms{{
     {"trim", "a motion that can be kept: constant speed and steering; numbered from 1"},
     {"maneuver",
      "a precomputed motion of one step from one trim to another, or a trim kept for a "
@@ -45,12 +45,14 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 11> k
     {"f = g + h",
      "g: cost up to the vertex; h: lower bound on the cost of the rest. No plan through "
      "the vertex costs less than f"},
+    {"open list", "the vertices generated and not yet looked at; that of least f is taken first"},
     {"expanded",
-     "the vertex of least f is taken from the open list, and every maneuver that "
+     "taken from the open list, and every maneuver that "
      "may follow gives a new vertex"},
     {"collision", "the vertex was taken, but its last maneuver meets an obstacle or the boundary"},
     {"bound", "never taken: its f is no less than the cost of the plan found"},
     {"open", "never taken: the search stopped early"},
+    {"goal", "taken, free and complete: the plan that ended the search"},
     {"runner-up",
      "the best plan with another first maneuver, found by a search of its own; only "
      "the first maneuver is driven before the next plan is made"},
