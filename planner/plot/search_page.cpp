@@ -167,8 +167,9 @@ std::string search_page(const scenario::ProblemFile& file, const RecordedSearch&
       "its f; marks at the upper edge lie higher still.";
   if (!recorded.result.maneuvers.empty()) {
     html +=
-        " The lines across are the costs of the plan found and of the runner-up. What lies above "
-        "the plan's cannot be better, what lies below it had to be looked at.";
+        " The line across is the cost of the plan found (dashed: of the runner-up). What lies "
+        "above "
+        "it cannot be better, what lies below it had to be looked at.";
   }
   html += "</p>\n";
   html += tree_picture(recorded) + legend(recorded);

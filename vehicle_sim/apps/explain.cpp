@@ -57,6 +57,16 @@ double ahead_m(const hlc::controller::Controller& controller) {
   return sum_m;
 }
 
+/// True if the plan in force consists of these maneuvers from t(k+1) on.
+bool is_in_force(const std::vector<const hlc::automaton::Maneuver*>& maneuvers,
+                 const hlc::controller::Controller& controller) {
+  hlc::StepIndex step = controller.last_step();
+  return std::ranges::all_of(maneuvers, [&](const hlc::automaton::Maneuver* maneuver) {
+    ++step.value;
+    return &controller.plan_in_force().maneuver_during(step) == maneuver;
+  });
+}
+
 /// What a new plan begins with, and the best plan with another first maneuver. None if the plan in
 /// force is not that of the step's last problem, or the cost-to-go is no bound.
 std::optional<hlc::apps::ExplainedStep::Choice> choice_of(
@@ -68,11 +78,7 @@ std::optional<hlc::apps::ExplainedStep::Choice> choice_of(
   const hlc::search::SearchResult result =
       hlc::search::make_search_engine(*on.subgraph, *on.reachable, options, on.tables)
           ->search(problem);
-  const hlc::StepIndex end{controller.last_step().value + 2};
-  const hlc::coordination::Plan& plan = controller.plan_in_force();
-  if (result.maneuvers.empty() || plan.end() < end || plan.pose_at(end) != result.poses.front()) {
-    return {};
-  }
+  if (result.maneuvers.empty() || !is_in_force(result.maneuvers, controller)) return {};
   const std::vector<hlc::search::Alternative> others = hlc::search::alternatives_to(
       result.maneuvers.front(), *on.subgraph, *on.reachable, options, problem);
   hlc::apps::ExplainedStep::Choice choice{.first = hlc::plot::name_of(*result.maneuvers.front()),

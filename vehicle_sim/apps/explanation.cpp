@@ -93,10 +93,9 @@ class Lines {
 
 std::string choice_words(const ExplainedStep::Choice& choice) {
   const std::string begin = "it begins with " + choice.first;
-  return choice.next_best.empty()
-             ? begin + "; no plan begins with another maneuver"
-             : fmt::format("{}; next best: {}, {:+.3g} m^2", begin, choice.next_best,
-                           choice.extra_m2);
+  return choice.next_best.empty() ? begin + "; no plan begins with another maneuver"
+                                  : fmt::format("{}; next best: {}, {:+.3g} m^2", begin,
+                                                choice.next_best, choice.extra_m2);
 }
 
 void add_what_it_knew(const ExplainedStep& explained, Lines& lines) {
