@@ -43,7 +43,7 @@ th { font-weight: 400; }
 dt { font-weight: 600; margin-top: .3em; }
 dd { margin: 0 0 0 1.2em; }
 svg.tree, svg.map { display: block; width: 100%; background: var(--ground); border: 1px solid var(--line); }
-svg.map { max-height: min(85vh, 50em); }
+svg.map { max-height: min(85vh, 800px); }
 svg.tree text { font-size: 13px; fill: var(--muted); }
 svg.map text { fill: var(--text); stroke: var(--ground); stroke-width: .25em; paint-order: stroke;
   text-anchor: middle; dominant-baseline: central; font-family: inherit; }
