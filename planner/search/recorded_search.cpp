@@ -13,6 +13,8 @@ RecordedSearch record_search(const automaton::Subgraph& subgraph,
   BestFirstSearch engine(subgraph, reachable, options);
   engine.record_in(&recorded.tree);
   recorded.result = engine.search(problem, never_stop);
+  // Nothing of these searches is recorded: the fast engine finds the same costs sooner.
+  if (options.cost_to_go == CostToGo::kReachable) options.engine = Engine::kBranchAndBound;
   const auto& plan = recorded.result.maneuvers;
   recorded.alternatives =
       alternatives_to(plan.empty() ? nullptr : plan.front(), subgraph, reachable, options, problem);

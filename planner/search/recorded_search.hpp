@@ -19,7 +19,8 @@ struct RecordedSearch {
   std::vector<Alternative> alternatives;
 };
 
-/// Searches with the best-first engine, whatever engine the options name.
+/// Searches with the best-first engine, whatever engine the options name; for the alternatives with
+/// the fast engine if it has the cost-to-go.
 /// @param reachable  belongs to `subgraph`
 /// @pre as BestFirstSearch::search, n >= 1, the cost-to-go is admissible
 [[nodiscard]] RecordedSearch record_search(const automaton::Subgraph& subgraph,
