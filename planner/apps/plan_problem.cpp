@@ -13,10 +13,13 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
+#include "planner/apps/search_json.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/plot/problem_plot.hpp"
+#include "planner/plot/search_page.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/problem_file.hpp"
+#include "planner/search/recorded_search.hpp"
 #include "planner/search/search_engine.hpp"
 #include "planner/search/search_options.hpp"
 
@@ -27,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kExitFallback = 1;
 constexpr int kExitFailed = 2;
+constexpr char kTreeEngine[] = "best_first";
 /// The shortest of several calls is reported: the first one also allocates and fills caches.
 constexpr int kMaxCalls = 20;
 constexpr double kEnough_us = 2e4;
@@ -39,6 +43,7 @@ struct Flags {
   std::optional<std::size_t> max_expansions;
   bool json{};
   hlc::apps::OutputFile plot{"--plot", {}};
+  hlc::apps::OutputFile tree{"--tree", {}};
 };
 
 struct Solved {
@@ -65,15 +70,42 @@ void declare(CLI::App& app, Flags& flags) {
       "step, from 1), poses ([x, y, psi] after each step), generated, expanded, "
       "planning_us");
   hlc::apps::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
+  hlc::apps::declare_output(
+      app, flags.tree,
+      "write what was searched: FILE.html, a page with the search tree, what ruled out the other "
+      "plans, and the runner-up; FILE.json, the same for other programs. Searches with best_first, "
+      "also if the problem names another engine; cost-to-go reachable or straight_line");
   app.footer(
       "Exit codes: 0 there is a plan, 1 there is none (fallback), 2 invalid input or an output "
       "that "
       "cannot be written.");
 }
 
+/// Only the plain engine records its search.
+void check_tree_flags(const Flags& flags) {
+  if (!flags.tree.file) return;
+  const std::string extension = flags.tree.file->extension().string();
+  if (extension != ".html" && extension != ".json") {
+    throw std::invalid_argument(
+        fmt::format("--tree = {}, must end in .html or .json", flags.tree.file->string()));
+  }
+  if (flags.engine && *flags.engine != kTreeEngine) {
+    throw std::invalid_argument(
+        fmt::format("--engine = {} with --tree, must be {}", *flags.engine, kTreeEngine));
+  }
+}
+
+void check_tree_search(const Flags& flags, const hlc::search::SearchOptions& search) {
+  if (!flags.tree.file || hlc::search::is_admissible(search.cost_to_go)) return;
+  throw std::invalid_argument(
+      fmt::format("cost_to_go = {} with --tree, must be reachable or straight_line",
+                  hlc::search::to_string(search.cost_to_go)));
+}
+
 hlc::scenario::ProblemFile read(const Flags& flags) {
   hlc::scenario::ProblemFile file = hlc::scenario::read_problem_file(flags.file, flags.automaton);
   try {
+    if (flags.tree.file) hlc::scenario::choose_engine(kTreeEngine, file.search);
     if (flags.engine) hlc::scenario::choose_engine(*flags.engine, file.search);
     if (flags.cost_to_go)
       file.search.cost_to_go = hlc::search::cost_to_go_from_name(*flags.cost_to_go);
@@ -82,6 +114,7 @@ hlc::scenario::ProblemFile read(const Flags& flags) {
   }
   try {
     if (flags.max_expansions) file.search.max_expansions = *flags.max_expansions;
+    check_tree_search(flags, file.search);
     hlc::scenario::check_can_be_searched(file);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(flags.file.string() + ": " + error.what());
@@ -166,10 +199,19 @@ void print(const hlc::scenario::ProblemFile& file, const Solved& solved) {
   }
 }
 
+void write_tree(const hlc::scenario::ProblemFile& file, const std::filesystem::path& path) {
+  const hlc::automaton::ReachableSets reachable(*file.subgraph, file.problem.horizon_steps());
+  const hlc::search::RecordedSearch recorded =
+      hlc::search::record_search(*file.subgraph, reachable, file.search, file.problem);
+  hlc::write_file(path, path.extension() == ".html" ? hlc::plot::search_page(file, recorded)
+                                                    : hlc::apps::search_json(file, recorded));
+}
+
 int run(const Flags& flags) {
-  hlc::apps::check_output_files({flags.plot}, {flags.file});
+  check_tree_flags(flags);
+  hlc::apps::check_output_files({flags.plot, flags.tree}, {flags.file});
   const hlc::scenario::ProblemFile file = read(flags);
-  hlc::apps::check_output_files({flags.plot}, {flags.file, file.automaton_file});
+  hlc::apps::check_output_files({flags.plot, flags.tree}, {flags.file, file.automaton_file});
   const Solved solved = solve(file);
   if (flags.json) {
     std::cout << to_json(solved).dump() << '\n';
@@ -179,6 +221,7 @@ int run(const Flags& flags) {
   if (flags.plot.file) {
     hlc::write_file(*flags.plot.file, hlc::plot::problem_plot(file, solved.result));
   }
+  if (flags.tree.file) write_tree(file, *flags.tree.file);
   return solved.result.status == hlc::search::SearchStatus::kFallback ? kExitFallback : 0;
 }
 

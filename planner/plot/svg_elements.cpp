@@ -4,7 +4,6 @@
 #include <tinyxml2.h>
 
 namespace hlc::plot::svg {
-namespace {
 
 using Eigen::Vector2d;
 
@@ -13,8 +12,6 @@ std::string escaped(const std::string& text) {
   printer.PushText(text.c_str());
   return printer.CStr();
 }
-
-}  // namespace
 
 std::string text_at(const Vector2d& at, const std::string& text, const std::string& anchor,
                     const std::string& more) {

@@ -8,6 +8,9 @@
 /// The SVG elements of plots, at places in pixels (x to the right, y down).
 namespace hlc::plot::svg {
 
+/// The text with & < > as entities, for text between tags, also of HTML.
+[[nodiscard]] std::string escaped(const std::string& text);
+
 /// @param anchor  start, middle or end: the part of the text at the place
 /// @param more    further attributes, beginning with a blank
 [[nodiscard]] std::string text_at(const Eigen::Vector2d& at, const std::string& text,

@@ -30,6 +30,25 @@ Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed
   return box;
 }
 
+std::optional<Obstruction> obstruction_of(const automaton::Maneuver& maneuver, std::size_t step,
+                                          const Frame& start, const HorizonProblem& problem) {
+  ConvexPolygon placed;
+  if (!problem.obstacles_m.empty()) {
+    place(maneuver.swept_area_m, start, placed);
+    const std::vector<ConvexPolygon>& obstacles_m = problem.obstacles_m[step - 1];
+    for (std::size_t i = 0; i < obstacles_m.size(); ++i) {
+      if (!obstacles_m[i].empty() && intersects(placed, obstacles_m[i])) {
+        return Obstruction{.obstacle = i};
+      }
+    }
+  }
+  place(maneuver.lane_area_m, start, placed);
+  const bool meets_boundary = std::ranges::any_of(
+      problem.boundary_m,
+      [&placed](const Segment& segment) { return intersects(placed, segment); });
+  return meets_boundary ? std::optional(Obstruction{}) : std::nullopt;
+}
+
 CollisionCheck::CollisionCheck(const automaton::Subgraph& subgraph,
                                const automaton::ReachableSets& reachable)
     : reachable_(reachable) {

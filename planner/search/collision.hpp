@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "planner/automaton/reachable_sets.hpp"
@@ -14,6 +15,20 @@ namespace hlc::search {
 /// Moves an area from the frame of its start into `placed` and returns its box. Allocates nothing
 /// if `placed` has the capacity.
 Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed);
+
+/// The first thing that a maneuver meets: an obstacle of its step, or the boundary.
+struct Obstruction {
+  std::optional<std::size_t> obstacle;  ///< in the step's list, from 0; none: the boundary
+  friend bool operator==(const Obstruction&, const Obstruction&) = default;
+};
+
+/// What CollisionCheck::is_free does not name; none if the maneuver is free. Without preparation,
+/// so it is slower.
+/// @param step   1 ... n: the step in which the maneuver is driven
+/// @param start  pose at the begin of the maneuver
+[[nodiscard]] std::optional<Obstruction> obstruction_of(const automaton::Maneuver& maneuver,
+                                                        std::size_t step, const Frame& start,
+                                                        const HorizonProblem& problem);
 
 /// Collision check of the edges of one search: a maneuver is free in step j if its swept area meets
 /// no obstacle of that step and its lane area crosses no boundary segment.

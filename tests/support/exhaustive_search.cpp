@@ -1,5 +1,7 @@
 #include "tests/support/exhaustive_search.hpp"
 
+#include <algorithm>
+
 #include "tests/support/plan_check.hpp"
 
 namespace hlc::test {
@@ -48,6 +50,10 @@ class Enumeration {
       return;
     }
     ++best_.complete_paths;
+    if (!path_.empty()) {
+      double& least = best_.cost_by_first.try_emplace(path_.front(), cost).first->second;
+      least = std::min(least, cost);
+    }
     if (!best_.feasible || cost < best_.cost) {
       best_.feasible = true;
       best_.cost = cost;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
@@ -13,6 +14,8 @@ struct ExhaustiveResult {
   double cost{};  ///< [m^2]; only if feasible
   /// Of a path of least cost; empty unless feasible
   std::vector<const automaton::Maneuver*> maneuvers;
+  /// Least cost of the paths that begin with a maneuver, for each that a path begins with [m^2]
+  std::map<const automaton::Maneuver*, double> cost_by_first;
   std::size_t complete_paths{};  ///< free paths of n steps that end in standstill
 };
 

@@ -17,7 +17,11 @@
 #include "hlc_bridge/record/run_folder.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/controller/controller.hpp"
+#include "planner/plot/search_words.hpp"
 #include "planner/scenario/problem_dump.hpp"
+#include "planner/search/alternatives.hpp"
+#include "planner/search/search_engine.hpp"
+#include "planner/search/search_options.hpp"
 #include "vehicle_sim/apps/explanation.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
@@ -53,9 +57,43 @@ double ahead_m(const hlc::controller::Controller& controller) {
   return sum_m;
 }
 
+/// True if the plan in force consists of these maneuvers from t(k+1) on.
+bool is_in_force(const std::vector<const hlc::automaton::Maneuver*>& maneuvers,
+                 const hlc::controller::Controller& controller) {
+  hlc::StepIndex step = controller.last_step();
+  return std::ranges::all_of(maneuvers, [&](const hlc::automaton::Maneuver* maneuver) {
+    ++step.value;
+    return &controller.plan_in_force().maneuver_during(step) == maneuver;
+  });
+}
+
+/// What a new plan begins with, and the best plan with another first maneuver. None if the plan in
+/// force is not that of the step's last problem, or the cost-to-go is no bound.
+std::optional<hlc::apps::ExplainedStep::Choice> choice_of(
+    const hlc::controller::Controller& controller) {
+  const hlc::search::SearchOptions& options = controller.options().search;
+  if (controller.problems().empty() || !hlc::search::is_admissible(options.cost_to_go)) return {};
+  const hlc::search::HorizonProblem& problem = controller.problems().back();
+  const hlc::controller::PreparedSubgraph& on = controller.prepared_subgraph();
+  const hlc::search::SearchResult result =
+      hlc::search::make_search_engine(*on.subgraph, *on.reachable, options, on.tables)
+          ->search(problem);
+  if (result.maneuvers.empty() || !is_in_force(result.maneuvers, controller)) return {};
+  const std::vector<hlc::search::Alternative> others = hlc::search::alternatives_to(
+      result.maneuvers.front(), *on.subgraph, *on.reachable, options, problem);
+  hlc::apps::ExplainedStep::Choice choice{.first = hlc::plot::name_of(*result.maneuvers.front()),
+                                          .next_best = {}};
+  if (const hlc::search::Alternative* const second = runner_up(others)) {
+    choice.next_best = hlc::plot::name_of(*second->first);
+    choice.extra_m2 = second->best.cost - result.cost;
+  }
+  return choice;
+}
+
 struct Driven {
   Rows rows;
   hlc::apps::StepOutcome outcome;  ///< of the vehicle in the step
+  std::optional<hlc::apps::ExplainedStep::Choice> choice;
 };
 
 /// Drives the run up to the step, and with some vehicles gone from the step on.
@@ -92,6 +130,7 @@ class Drives {
       if (step != choices_.step || controller.options().vehicle.value != choices_.vehicle) return;
       driven.outcome.ahead_m = controller.has_plan() ? ahead_m(controller) : 0.0;
       if (dump != nullptr) dump->write(controller);
+      if (controller.has_plan()) driven.choice = choice_of(controller);
     };
     const hlc::closed_loop::Experiment experiment =
         hlc::closed_loop::drive_experiment(run_.scenario, options);
@@ -159,6 +198,7 @@ int explain(const Choices& choices) {
                                      .step_s = run.description.step_s,
                                      .outcome = driven.outcome,
                                      .others = others_in(driven.rows, choices)};
+  if (report.status == hlc::coordination::StepStatus::kPlanned) explained.choice = driven.choice;
   const std::vector<VehicleId> may_matter = that_may_matter(report, explained.others);
   if (choices.step > 0 && !may_matter.empty()) {
     explained.without_all = drives.without(may_matter);

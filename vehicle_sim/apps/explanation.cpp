@@ -91,6 +91,13 @@ class Lines {
   std::string text_;
 };
 
+std::string choice_words(const ExplainedStep::Choice& choice) {
+  const std::string begin = "it begins with " + choice.first;
+  return choice.next_best.empty() ? begin + "; no plan begins with another maneuver"
+                                  : fmt::format("{}; next best: {}, {:+.3g} m^2", begin,
+                                                choice.next_best, choice.extra_m2);
+}
+
 void add_what_it_knew(const ExplainedStep& explained, Lines& lines) {
   const Report& report = explained.outcome.report;
   if (explained.others.empty()) {
@@ -121,6 +128,7 @@ std::string explanation(const ExplainedStep& explained) {
             fmt::format("{}, step {} ({:.1f} s), subgraph {}", explained.name, explained.step,
                         explained.step_s * static_cast<double>(explained.step), report.subgraph));
   lines.add("did", outcome_words(explained.outcome));
+  if (explained.choice) lines.add("", choice_words(*explained.choice));
   if (!report.waiting.vehicles.empty()) {
     lines.add("", coordination::waiting_text(report, explained.step_s));
   }

@@ -30,6 +30,14 @@ struct ExplainedStep {
   };
   std::vector<Without> without_one;    ///< for each vehicle that may matter
   std::optional<Without> without_all;  ///< for all of these together; none: there are none
+
+  /// What the new plan begins with, and the runner-up (search::runner_up).
+  struct Choice {
+    std::string first;
+    std::string next_best;  ///< empty: no plan begins with another maneuver
+    double extra_m2{};      ///< by which the runner-up costs more
+  };
+  std::optional<Choice> choice;  ///< none without a plan of this step's search
 };
 
 /// Lines of text: what the vehicle did and why, what it knew, what it would have done alone, and

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planner/common/demand.hpp"
 #include "planner/search/search_options.hpp"
@@ -52,6 +53,11 @@ BestFirstSearch::BestFirstSearch(const automaton::Subgraph& subgraph,
   }
 }
 
+void BestFirstSearch::record_in(SearchTree* tree) {
+  HLC_DEMAND(tree == nullptr || is_admissible(options_.cost_to_go));
+  tree_ = tree;
+}
+
 void BestFirstSearch::search(const HorizonProblem& problem, const std::function<bool()>& stop,
                              SearchResult& result) {
   HLC_DEMAND(is_well_formed(problem, reachable_, options_.cost_to_go));
@@ -59,22 +65,31 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
 
   reset(result);
   result.generated = 1;
-  if (subgraph_.distance_to_standstill(problem.start_trim) > n) return;
+  vertices_.clear();
+  vertices_.push_back({to_frame(problem.start), 0.0, nullptr, problem.start_trim, 0, 0});
+  if (tree_ != nullptr) tree_->vertices.clear();
+  if (subgraph_.distance_to_standstill(problem.start_trim) > n) {
+    record(0, std::numeric_limits<double>::infinity(), n);
+    return;
+  }
 
   collision_.prepare(problem);
   const CostToGoFunction cost_to_go(subgraph_, reachable_, problem, options_.cost_to_go);
   const bool has_incumbent = write_incumbent(problem, result);
 
-  vertices_.clear();
-  vertices_.push_back({to_frame(problem.start), 0.0, nullptr, problem.start_trim, 0, 0});
   ompl::BinaryHeap<OpenEntry, Before> open;
   open.insert({cost_to_go(problem.start_trim, 0, vertices_.front().frame), 0, 0});
+  record(0, open.top()->data.cost_estimate, n);
 
   while (!open.empty()) {
     const OpenEntry taken = open.top()->data;
     open.pop();
-    if (!incoming_edge_is_free(vertices_[taken.vertex])) continue;
+    if (!incoming_edge_is_free(vertices_[taken.vertex])) {
+      record(taken.vertex, Fate::kCollision);
+      continue;
+    }
     if (vertices_[taken.vertex].depth == n) {
+      record(taken.vertex, Fate::kGoal);
       end_at_goal(taken.vertex, problem, has_incumbent, result);
       break;
     }
@@ -86,9 +101,36 @@ void BestFirstSearch::search(const HorizonProblem& problem, const std::function<
       break;
     }
     expand(taken.vertex, problem, cost_to_go, open);
+    record(taken.vertex, Fate::kExpanded);
     ++result.expanded;
   }
   result.generated = vertices_.size();
+  end_record(result);
+}
+
+void BestFirstSearch::record(VertexId id, double estimate, std::size_t horizon_steps) {
+  if (tree_ == nullptr) return;
+  const Vertex& vertex = vertices_[id];
+  const double least_m2 = static_cast<double>(horizon_steps) * costs_.least();
+  tree_->vertices.push_back({.frame = vertex.frame,
+                             .maneuver = vertex.maneuver,
+                             .trim = vertex.trim,
+                             .parent = vertex.parent,
+                             .depth = vertex.depth,
+                             .cost_so_far_m2 = vertex.cost_to_come + least_m2,
+                             .estimate_m2 = estimate + least_m2});
+}
+
+void BestFirstSearch::record(VertexId id, Fate fate) {
+  if (tree_ != nullptr) tree_->vertices[id].fate = fate;
+}
+
+/// A plan rules out every vertex that promises nothing better, also if the search stopped early.
+void BestFirstSearch::end_record(const SearchResult& result) {
+  if (tree_ == nullptr || result.status == SearchStatus::kFallback) return;
+  for (TreeVertex& vertex : tree_->vertices) {
+    if (vertex.fate == Fate::kOpen && vertex.estimate_m2 >= result.cost) vertex.fate = Fate::kBound;
+  }
 }
 
 /// With the goal's path, unless the incumbent costs no more.
@@ -166,6 +208,7 @@ void BestFirstSearch::expand(VertexId vertex, const HorizonProblem& problem,
     vertices_.push_back({frame, cost_to_come, step.maneuver, step.to, vertex, depth});
     const double to_go = cost_to_go(step.to, depth, frame) + costs_.to_go(step.to, steps_left);
     open.insert({cost_to_come + to_go, child, depth});
+    record(child, cost_to_come + to_go, problem.horizon_steps());
   }
 }
 

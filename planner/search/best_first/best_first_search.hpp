@@ -6,6 +6,7 @@
 
 #include "planner/automaton/reachable_sets.hpp"
 #include "planner/automaton/subgraph.hpp"
+#include "planner/search/best_first/search_tree.hpp"
 #include "planner/search/collision.hpp"
 #include "planner/search/cost_to_go.hpp"
 #include "planner/search/edge_costs.hpp"
@@ -55,6 +56,11 @@ class BestFirstSearch final : public SearchEngine {
   void search(const HorizonProblem& problem, const std::function<bool()>& stop,
               SearchResult& result) override;
 
+  /// Overwrites `tree` with all vertices of each later search; it changes no result and no count.
+  /// @param tree  must outlive the searches; nullptr: nothing is recorded
+  /// @pre the cost-to-go is admissible, otherwise f would not be a bound
+  void record_in(SearchTree* tree);
+
  private:
   using VertexId = std::uint32_t;
 
@@ -98,6 +104,9 @@ class BestFirstSearch final : public SearchEngine {
   [[nodiscard]] const Step* find_step(TrimId trim, const automaton::Maneuver* maneuver) const;
   [[nodiscard]] double cost_of(VertexId vertex, std::size_t steps) const;
   void write_path(VertexId goal, const HorizonProblem& problem, SearchResult& result) const;
+  void record(VertexId id, double estimate, std::size_t horizon_steps);
+  void record(VertexId id, Fate fate);
+  void end_record(const SearchResult& result);
 
   const automaton::Subgraph& subgraph_;
   const automaton::ReachableSets& reachable_;
@@ -106,6 +115,7 @@ class BestFirstSearch final : public SearchEngine {
   EdgeCosts costs_;
   std::vector<std::vector<Step>> steps_;  ///< out of each trim
   std::vector<Vertex> vertices_;          ///< of the current search, in the order of generation
+  SearchTree* tree_{nullptr};             ///< records `vertices_`; may be nullptr
 };
 
 }  // namespace hlc::search

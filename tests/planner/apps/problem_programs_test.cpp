@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
@@ -149,6 +151,59 @@ TEST_F(ProblemPrograms, ThePlotIsAPictureThatExplainsItself) {
       EXPECT_THAT(text.str(), HasSubstr(word));
     }
   }
+}
+
+TEST_F(ProblemPrograms, TheTreeIsAPageOfThePlanThatThePlainEngineFinds) {
+  const std::string page = (folder_ / "tree.html").string();
+  const Outcome outcome = run_program("plan_problem " + kShipped + " --tree " + page);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("engine           best_first"));
+  std::stringstream text;
+  text << std::ifstream(page).rdbuf();
+  for (const char* word : {"<!doctype html>", "Runner-up: ", "The search tree", "</html>"}) {
+    EXPECT_THAT(text.str(), HasSubstr(word));
+  }
+  EXPECT_EQ(run_program("plan_problem " + infeasible() + " --tree " + page).exit_code, 1);
+}
+
+TEST_F(ProblemPrograms, TheTreeAsJsonHasEveryVertexAndTheCountsOfTheSearch) {
+  const fs::path file = folder_ / "tree.json";
+  const auto plan = json_of(kShipped + " --tree " + file.string());
+  const auto tree = nlohmann::json::parse(std::ifstream(file), nullptr, false);
+  for (const char* key : {"status", "cost", "lower_bound", "trims", "generated", "expanded"}) {
+    EXPECT_EQ(tree[key], plan[key]) << key;
+  }
+  ASSERT_EQ(tree["vertices"].size(), plan["generated"]);
+  EXPECT_EQ(tree["vertices_left_out"], 0);
+  std::size_t expanded = 0;
+  for (const auto& depth : tree["depths"]) expanded += depth["expanded"].get<std::size_t>();
+  EXPECT_EQ(expanded, plan["expanded"]);
+  for (const auto& vertex : tree["vertices"]) {
+    EXPECT_EQ(vertex["fate"] == "collision", !vertex["obstruction"].is_null());
+    EXPECT_EQ(vertex["parent"].is_null(), vertex["depth"] == 0);
+  }
+  const auto& second = tree["alternatives"][tree["runner_up"].get<std::size_t>()];
+  for (const auto& one : tree["alternatives"]) EXPECT_GE(one["extra"], second["extra"]);
+  EXPECT_NEAR(second["cost"].get<double>() - plan["cost"].get<double>(),
+              second["extra"].get<double>(), 1e-9);
+}
+
+TEST_F(ProblemPrograms, ATreeIsRefusedWhereItCannotBeRecorded) {
+  const std::string page = (folder_ / "tree.html").string();
+  for (const auto& [flags, error] : std::vector<std::pair<std::string, std::string>>{
+           {"--tree " + (folder_ / "tree.svg").string(), "must end in .html or .json"},
+           {"--tree " + page + " --engine branch_and_bound",
+            "--engine = branch_and_bound with --tree, must be best_first"},
+           {"--tree " + page + " --engine best_first --cost_to_go 2022",
+            "cost_to_go = 2022 with --tree, must be reachable or straight_line"},
+           {"--tree " + page + " --plot " + page, "must be a file other than"},
+           {"--tree /nowhere/tree.html", "must be"}}) {
+    const Outcome outcome = run_program("plan_problem " + kShipped + " " + flags);
+    EXPECT_EQ(outcome.exit_code, 2) << flags;
+    EXPECT_EQ(lines_of(outcome.output), 1U) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(error));
+  }
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(ProblemPrograms, APictureNeverTakesThePlaceOfItsProblem) {

@@ -1,9 +1,12 @@
 // The program with steps of a run, and with what it must refuse.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/support/folders.hpp"
@@ -62,14 +65,25 @@ TEST_F(Explain, EveryStepInWhichAVehicleWaitsNamesForWhichAndWhatItWouldDoWithou
   EXPECT_GT(num_waiting, 0U);
 }
 
-TEST_F(Explain, TheProblemsOfTheStepCanBeSolvedAgain) {
+TEST_F(Explain, TheProblemsOfTheStepCanBeSolvedAgainAndHaveTheSameRunnerUp) {
   const fs::path problems = folder().path() / "problems";
   const test::Outcome outcome = explain("--vehicle 1 --step 10 --problems " + problems.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   ASSERT_FALSE(fs::is_empty(problems));
-  const fs::path file = fs::directory_iterator(problems)->path();
-  const test::Outcome planned = test::run_program("plan_problem " + file.string());
-  EXPECT_EQ(planned.exit_code, 0) << planned.output;
+  fs::path last;
+  for (const fs::directory_entry& entry : fs::directory_iterator(problems)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find("_search_") != std::string::npos) last = std::max(last, entry.path());
+  }
+  const fs::path tree = folder().path() / "tree.json";
+  const test::Outcome planned =
+      test::run_program("plan_problem " + last.string() + " --tree " + tree.string());
+  ASSERT_EQ(planned.exit_code, 0) << planned.output;
+  const auto json = nlohmann::json::parse(std::ifstream(tree), nullptr, false);
+  const auto& second = json["alternatives"][json["runner_up"].get<std::size_t>()];
+  EXPECT_THAT(outcome.output, HasSubstr("it begins with "));
+  EXPECT_THAT(outcome.output,
+              HasSubstr(fmt::format(", {:+.3g} m^2\n", second["extra"].get<double>())));
 }
 
 TEST_F(Explain, RefusesInOneLine) {

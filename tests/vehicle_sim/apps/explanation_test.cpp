@@ -48,6 +48,15 @@ TEST(Explanation, NamesVehicleStepTimeAndWhatItDid) {
   EXPECT_THAT(text, HasSubstr("may come near: vehicles 1, 2; planned before all of them"));
 }
 
+TEST(Explanation, NamesWhatThePlanBeginsWithAndTheNextBest) {
+  ExplainedStep explained = step_with(planned(0.93));
+  explained.choice = {.first = "J2 to trim 8", .next_best = "trim 7 kept", .extra_m2 = 0.031};
+  EXPECT_THAT(explanation(explained),
+              HasSubstr(" it begins with J2 to trim 8; next best: trim 7 kept, +0.031 m^2\n"));
+  explained.choice->next_best.clear();
+  EXPECT_THAT(explanation(explained), HasSubstr("; no plan begins with another maneuver\n"));
+}
+
 TEST(Explanation, NamesTheReasonOfAFallbackAndWhoCausedIt) {
   const auto words = [](FallbackReason reason, std::vector<VehicleId> by) {
     return explanation(step_with(kept(reason, std::move(by))));
