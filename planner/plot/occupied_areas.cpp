@@ -13,6 +13,20 @@ std::size_t index_of(const ConvexPolygon& area_m, const std::vector<OccupiedArea
   return static_cast<std::size_t>(found - areas.begin());
 }
 
+std::vector<OccupiedArea> different_areas(const search::HorizonProblem& problem) {
+  std::vector<OccupiedArea> areas;
+  for (std::size_t j = 0; j < problem.obstacles_m.size(); ++j) {
+    for (const ConvexPolygon& area_m : problem.obstacles_m[j]) {
+      if (area_m.empty()) continue;
+      const std::size_t index = index_of(area_m, areas);
+      if (index == areas.size()) areas.push_back({.area_m = area_m, .steps = {}});
+      std::vector<std::size_t>& steps = areas[index].steps;
+      if (steps.empty() || steps.back() != j + 1) steps.push_back(j + 1);
+    }
+  }
+  return areas;
+}
+
 }  // namespace
 
 std::string OccupiedAreas::name_of(const search::Obstruction& obstruction, std::size_t step,
@@ -24,17 +38,7 @@ std::string OccupiedAreas::name_of(const search::Obstruction& obstruction, std::
 
 OccupiedAreas occupied_areas(const search::HorizonProblem& problem,
                              const search::SearchTree& tree) {
-  OccupiedAreas occupied;
-  std::vector<OccupiedArea>& areas = occupied.areas;
-  for (std::size_t j = 0; j < problem.obstacles_m.size(); ++j) {
-    for (const ConvexPolygon& area_m : problem.obstacles_m[j]) {
-      if (area_m.empty()) continue;
-      const std::size_t index = index_of(area_m, areas);
-      if (index == areas.size()) areas.push_back({.area_m = area_m, .steps = {}});
-      std::vector<std::size_t>& steps = areas[index].steps;
-      if (steps.empty() || steps.back() != j + 1) steps.push_back(j + 1);
-    }
-  }
+  OccupiedAreas occupied{.areas = different_areas(problem)};
   for (const search::TreeVertex& vertex : tree.vertices) {
     if (vertex.fate != search::Fate::kCollision) continue;
     const auto met = search::obstruction_of(*vertex.maneuver, vertex.depth,
@@ -44,7 +48,8 @@ OccupiedAreas occupied_areas(const search::HorizonProblem& problem,
       ++occupied.dropped_by_boundary;
       continue;
     }
-    ++areas[index_of(problem.obstacles_m[vertex.depth - 1][*met->obstacle], areas)].dropped;
+    const ConvexPolygon& area_m = problem.obstacles_m[vertex.depth - 1][*met->obstacle];
+    ++occupied.areas[index_of(area_m, occupied.areas)].dropped;
   }
   return occupied;
 }
