@@ -126,8 +126,10 @@ TEST(ComparisonPage, WhatIsNoPlaceIsLeftOut) {
 }
 
 TEST(ComparisonPage, ARunWithoutStepsHasAPage) {
+  FinishedRun not_recorded = sample_run(2, 1);
+  not_recorded.drives.clear();
   const result::RunComparison comparison =
-      result::compare(compared(sample_run(2, 0), "one"), compared(sample_run(2, 0), "two"), {});
+      result::compare(compared(sample_run(2, 0), "one"), compared(not_recorded, "two"), {});
   EXPECT_THAT(comparison_page(comparison, std::nullopt, std::nullopt),
               HasSubstr("No lanes and no driven path"));
 }
