@@ -125,11 +125,11 @@ TEST(ComparisonPage, WhatIsNoPlaceIsLeftOut) {
   EXPECT_EQ(occurrences(page, "<path class=\"b\" style=\"stroke:var(--car-"), 0U);
 }
 
-TEST(ComparisonPage, ARunWithoutStepsHasAPage) {
-  FinishedRun not_recorded = sample_run(2, 1);
-  not_recorded.drives.clear();
+TEST(ComparisonPage, RunsWithoutDrivesHaveAPage) {
+  FinishedRun run = sample_run(2, 1);
+  run.drives.clear();
   const result::RunComparison comparison =
-      result::compare(compared(sample_run(2, 0), "one"), compared(not_recorded, "two"), {});
+      result::compare(compared(run, "one"), compared(run, "two"), {});
   EXPECT_THAT(comparison_page(comparison, std::nullopt, std::nullopt),
               HasSubstr("No lanes and no driven path"));
 }
