@@ -147,7 +147,8 @@ int summarize_run(const Choices& choices) {
   try {
     show(choices, finished_run(read, faults_of(verdict, read.incomplete)), shown);
   } catch (const std::exception& error) {  // the result does not depend on it
-    std::cerr << "summarize: " << error.what() << '\n';
+    const char* const missing = choices.page && !shown.page ? "run.html" : "run.mcap";
+    std::cerr << "summarize: no " << missing << ": " << error.what() << '\n';
     if (verdict.exit_code == hlc::kExitGood) verdict.exit_code = hlc::kExitBadInput;
   }
   std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
