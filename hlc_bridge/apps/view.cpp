@@ -17,6 +17,7 @@
 #include "hlc_bridge/result/run_description.hpp"
 #include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/view/live_messages.hpp"
+#include "hlc_bridge/view/live_scene.hpp"
 
 namespace {
 
@@ -119,8 +120,10 @@ class View {
  public:
   View(const Flags& flags, hlc::view::FinishedRun run)
       : history_(std::to_string(hlc::time::real_time_now())),
-        server_(flags.server, history_),
+        newest_(std::to_string(hlc::time::real_time_now())),
+        server_(flags.server, history_, newest_),
         listener_(listener_options(flags, run.facts.vehicle_ids)),
+        scene_(run),
         messages_(std::move(run)) {
     if (server_.is_open_to_others()) {
       spdlog::warn("--listen = {}: the run is shown to whoever reaches this address",
@@ -139,8 +142,9 @@ class View {
   void tick() {
     if (history_.has_ended()) return;
     const hlc::live::LabListener::Received received = listener_.take();
-    for (const hlc::ReportRecord& record : received.reports) messages_.take(record);
-    for (const hlc::VehicleState& state : received.states) messages_.take(state);
+    for (const hlc::ReportRecord& record : received.reports) take(record);
+    for (const hlc::VehicleState& state : received.states) take(state);
+    for (hlc::view::SceneMessage& message : scene_.updates()) newest_.take(std::move(message));
     ticks_after_run_ = listener_.run_is_over() ? ticks_after_run_ + 1 : 0;
     if (stop_ || ticks_after_run_ > kLastTicks) return end("The run has ended.");
     if (history_.num_bytes() > kMostHistoryBytes) {
@@ -152,14 +156,21 @@ class View {
       history_.append(portion);
     }
   }
+  template <class Message>
+  void take(const Message& message) {
+    messages_.take(message);
+    scene_.take(message);
+  }
   void end(const std::string& reason) {
     history_.append(messages_.last_portion(reason));
     history_.end();
   }
 
   hlc::live::History history_;
+  hlc::live::NewestMessages newest_;
   hlc::live::Server server_;
   hlc::live::LabListener listener_;
+  hlc::view::LiveScene scene_;
   hlc::view::LiveMessages messages_;
   int ticks_after_run_{};
   std::atomic<bool> stop_{};

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "hlc_bridge/live/foxglove_protocol.hpp"
 #include "hlc_bridge/view/page_files.hpp"
 #include "hlc_bridge/view/run_page.hpp"
 
@@ -19,8 +20,25 @@ bool names_this_machine(std::string_view host) {
   });
 }
 
+bool may_open_websocket(std::string_view origin) {
+  constexpr std::array<std::string_view, 4> kOthers{"", "file://", "https://app.foxglove.dev",
+                                                    "https://studio.foxglove.dev"};
+  constexpr std::string_view kScheme = "http://";
+  return std::ranges::find(kOthers, origin) != kOthers.end() ||
+         (origin.starts_with(kScheme) && names_this_machine(origin.substr(kScheme.size())));
+}
+
 Answer refusal(unsigned status, const std::string& line) {
   return {.status = status, .body = line + '\n'};
+}
+
+Answer websocket_for(const Request& request, Audience audience) {
+  if (audience == Audience::kThisMachine && !may_open_websocket(request.origin)) {
+    return refusal(403, "the origin must be a program, this machine or https://app.foxglove.dev");
+  }
+  const std::string subprotocol = subprotocol_among(request.subprotocols);
+  if (subprotocol.empty()) return refusal(400, "the subprotocol must be foxglove.websocket.v1");
+  return {.status = 101, .subprotocol = subprotocol};
 }
 
 }  // namespace
@@ -30,6 +48,7 @@ Answer answer_to(const Request& request, Audience audience) {
     return refusal(403, "the host must be 127.0.0.1, localhost or [::1]");
   }
   if (request.method != "GET") return refusal(405, "the method must be GET");
+  if (request.is_upgrade) return websocket_for(request, audience);
   const std::string path = request.target.substr(0, request.target.find('?'));
   if (path == "/events") return {.type = "text/event-stream", .is_events = true};
   if (path == "/") return {.type = "text/html; charset=utf-8", .body = view::live_page()};

@@ -50,10 +50,17 @@ void Connection::answer(error_code error) {
   if (error) return close();
   const auto& request = parser_.get();
   position_ = site_.history.position_after(text_of(request["Last-Event-ID"]));
-  send(answer_to({.method = text_of(request.method_string()),
-                  .target = text_of(request.target()),
-                  .host = text_of(request[http::field::host])},
-                 site_.audience));
+  const Answer answer =
+      answer_to({.method = text_of(request.method_string()),
+                 .target = text_of(request.target()),
+                 .host = text_of(request[http::field::host]),
+                 .is_upgrade = websocket::is_upgrade(request),
+                 .origin = text_of(request[http::field::origin]),
+                 .subprotocols = text_of(request[http::field::sec_websocket_protocol])},
+                site_.audience);
+  if (answer.subprotocol.empty()) return send(answer);
+  site_.open_websocket(std::move(stream_), parser_.release(), answer.subprotocol);
+  close();
 }
 
 void Connection::send(const Answer& answer) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -18,6 +19,10 @@ struct Site {
   const History& history;
   Audience audience;
   std::chrono::milliseconds patience;
+  /// Takes over a connection that becomes a websocket of this subprotocol.
+  std::function<void(boost::beast::tcp_stream stream, http::request<http::empty_body> request,
+                     const std::string& subprotocol)>
+      open_websocket;
 };
 
 /// One client: a request and its answer. Every wait ends after the site's patience, except that of

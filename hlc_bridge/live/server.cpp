@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hlc_bridge/live/connection.hpp"
+#include "hlc_bridge/live/foxglove_client.hpp"
 
 namespace hlc::live {
 namespace {
@@ -49,8 +50,17 @@ void listen(tcp::acceptor& acceptor, const ServerOptions& options) {
 
 class Server::Core {
  public:
-  Core(const ServerOptions& options, const History& history)
-      : site_{.history = history, .audience = {}, .patience = options.patience} {
+  Core(const ServerOptions& options, const History& history, const NewestMessages& newest)
+      : site_{.history = history,
+              .audience = {},
+              .patience = options.patience,
+              .open_websocket =
+                  [this](auto stream, const auto& request, const auto& subprotocol) {
+                    viewers_.push_back(std::make_shared<FoxgloveClient>(std::move(stream), newest_,
+                                                                        site_.patience));
+                    viewers_.back()->start(request, subprotocol);
+                  }},
+        newest_(newest) {
     listen(acceptor_, options);
     if (!is_on_loopback()) site_.audience = Audience::kAll;
     accept();
@@ -58,7 +68,7 @@ class Server::Core {
 
   [[nodiscard]] tcp::endpoint endpoint() const { return acceptor_.local_endpoint(); }
   [[nodiscard]] bool is_on_loopback() const { return endpoint().address().is_loopback(); }
-  [[nodiscard]] std::size_t num_clients() const { return connections_.size(); }
+  [[nodiscard]] std::size_t num_clients() const { return connections_.size() + viewers_.size(); }
 
   void run(std::chrono::milliseconds interval, const std::function<void()>& on_tick) {
     interval_ = interval;
@@ -75,7 +85,7 @@ class Server::Core {
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
       is_accepting_ = !error;
       if (error) return;  // no sockets left, for example: the next tick tries again
-      if (connections_.size() < kMostClients) {
+      if (num_clients() < kMostClients) {
         connections_.push_back(std::make_shared<Connection>(std::move(socket), site_));
         connections_.back()->start();
       }
@@ -92,15 +102,21 @@ class Server::Core {
     on_tick_();
     for (const auto& connection : connections_) connection->send_events();
     std::erase_if(connections_, [](const auto& connection) { return connection->is_closed(); });
+    for (const auto& viewer : viewers_) {
+      viewer->send_news();
+      if (site_.history.has_ended()) viewer->finish();
+    }
+    std::erase_if(viewers_, [](const auto& viewer) { return viewer->is_closed(); });
     if (!is_accepting_) accept();
     if (site_.history.has_ended()) {
       if (!farewell_until_) farewell_until_ = Clock::now() + kFarewell;
-      if (connections_.empty() || Clock::now() >= *farewell_until_) return context_.stop();
+      if (num_clients() == 0 || Clock::now() >= *farewell_until_) return context_.stop();
     }
     wait();
   }
 
   Site site_;
+  const NewestMessages& newest_;
   std::chrono::milliseconds interval_{};
   std::function<void()> on_tick_;
   std::optional<Clock::time_point> farewell_until_;
@@ -109,10 +125,11 @@ class Server::Core {
   tcp::acceptor acceptor_{context_};
   asio::steady_timer timer_{context_};
   std::vector<std::shared_ptr<Connection>> connections_;  // after the context of their sockets
+  std::vector<std::shared_ptr<FoxgloveClient>> viewers_;
 };
 
-Server::Server(const ServerOptions& options, const History& history)
-    : core_(std::make_unique<Core>(options, history)) {}
+Server::Server(const ServerOptions& options, const History& history, const NewestMessages& newest)
+    : core_(std::make_unique<Core>(options, history, newest)) {}
 Server::~Server() = default;
 
 std::string Server::url() const {

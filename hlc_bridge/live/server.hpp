@@ -8,6 +8,7 @@
 #include <string>
 
 #include "hlc_bridge/live/history.hpp"
+#include "hlc_bridge/live/newest_messages.hpp"
 
 namespace hlc::live {
 
@@ -23,7 +24,8 @@ inline constexpr std::uint16_t kFirstPort = 8400;
 inline constexpr std::uint16_t kNumPorts = 50;
 inline constexpr std::size_t kMostClients = 200;  ///< further ones are refused
 
-/// The page of a run under way for browsers (answer.hpp), over HTTP, on one thread.
+/// The page of a run under way for browsers (answer.hpp), over HTTP, and its scene for other
+/// viewers, over websockets (foxglove_protocol.hpp); on one thread.
 ///
 /// A client gets the history from its position on, at most some 256 kB at a time, and the next ones
 /// when it has taken these. One that does not take them within `patience` is dropped: it needs no
@@ -31,9 +33,9 @@ inline constexpr std::size_t kMostClients = 200;  ///< further ones are refused
 class Server {
  public:
   /// Listens.
-  /// @param history  outlives the server
+  /// @param history, newest  outlive the server
   /// @throws std::invalid_argument naming the flag, --listen or --port, that cannot be had
-  Server(const ServerOptions& options, const History& history);
+  Server(const ServerOptions& options, const History& history, const NewestMessages& newest);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

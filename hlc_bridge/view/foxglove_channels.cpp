@@ -1,279 +1,103 @@
 #include "hlc_bridge/view/foxglove_channels.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
-#include "hlc_bridge/result/planned_motion.hpp"
-#include "hlc_bridge/view/page_json.hpp"
-#include "hlc_bridge/view/page_parts.hpp"
+#include "hlc_bridge/view/scene.hpp"
 
 namespace hlc::view {
 namespace {
 
-constexpr const char* kSceneUpdate = "foxglove.SceneUpdate";
 constexpr const char* kLog = "foxglove.Log";
 constexpr Nanoseconds kFrameTime = 40'000'000;
-constexpr Nanoseconds kNanosecondsPerSecond = 1'000'000'000;
-constexpr double kCarHeight_m = 0.05;
-constexpr double kPlan_m = 0.004;  ///< above the road, so that it hides the map's lines
-constexpr int kLineStrip = 0;
-constexpr int kLineLoop = 1;
 
-struct Rgb {
-  double r{};
-  double g{};
-  double b{};
-};
+using Frames = std::map<Nanoseconds, Json>;  ///< entities by time
 
-constexpr Rgb kBound{0.5, 0.5, 0.5};
-/// Of the vehicles, those of Okabe and Ito as in page/page.css.
-constexpr std::array<Rgb, 8> kCars{{{0.835, 0.369, 0.0},
-                                    {0.0, 0.447, 0.698},
-                                    {0.0, 0.620, 0.451},
-                                    {0.800, 0.475, 0.655},
-                                    {0.902, 0.624, 0.0},
-                                    {0.337, 0.706, 0.914},
-                                    {0.702, 0.643, 0.0},
-                                    {0.439, 0.439, 0.439}}};
-
-double finite(double value) { return std::isfinite(value) ? value : 0.0; }
-
-Json time_json(Nanoseconds time) {
-  return {{"sec", time / kNanosecondsPerSecond}, {"nsec", time % kNanosecondsPerSecond}};
+Json& frame_at(Nanoseconds time, Frames& frames) {
+  return frames.try_emplace(time, Json::array()).first->second;
 }
 
-Json point_json(double x_m, double y_m, double z_m) {
-  return {{"x", finite(x_m)}, {"y", finite(y_m)}, {"z", z_m}};
+mcap::JsonChannel scene_channel(const char* topic, Frames frames) {
+  mcap::JsonChannel channel{
+      .topic = topic, .type = kSceneUpdate, .schema = scene_schema(), .messages = {}};
+  for (auto& [time, entities] : frames) {
+    channel.messages.emplace_back(time, scene_update(std::move(entities)));
+  }
+  return channel;
 }
 
-Json pose_json(const Pose& pose, double z_m) {
-  const double half_rad = 0.5 * finite(pose.heading_rad);
-  return {{"position", point_json(pose.x_m, pose.y_m, z_m)},
-          {"orientation",
-           {{"x", 0.0}, {"y", 0.0}, {"z", std::sin(half_rad)}, {"w", std::cos(half_rad)}}}};
+Frames cars(const FinishedRun& run, const Scene& scene) {
+  Frames frames;
+  for (const result::VehicleDescription* vehicle : scene.vehicles()) {
+    const auto drive = run.drives.find(vehicle->id.value);
+    if (drive == run.drives.end()) continue;
+    std::optional<Nanoseconds> last;
+    for (const result::DrivenSample& sample : drive->second) {
+      if (last && sample.t < *last + kFrameTime) continue;
+      last = sample.t;
+      frame_at(sample.t, frames).push_back(scene.car(*vehicle, sample.pose, sample.t));
+    }
+  }
+  return frames;
 }
 
-Json color_json(const Rgb& color, double alpha) {
-  return {{"r", color.r}, {"g", color.g}, {"b", color.b}, {"a", alpha}};
+Frames plans(const FinishedRun& run, const Scene& scene, Nanoseconds begin) {
+  Frames frames;
+  for (const result::VehicleDescription* vehicle : scene.vehicles()) {
+    std::vector<const result::StepRecord*> rows;
+    for (const result::StepRecord& row : run.rows) {
+      if (row.record.report.vehicle == vehicle->id) rows.push_back(&row);
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Nanoseconds time = begin + rows[i]->step * run.facts.period;
+      frame_at(time, frames).push_back(scene.plan(*vehicle, std::span(rows).subspan(i), time));
+    }
+  }
+  return frames;
 }
 
-template <class Points>
-Json lines_json(int type, const Points& points_m, double z_m, double thickness_m,
-                const Json& color) {
-  Json points = Json::array();
-  for (const Point& point : points_m) points.push_back(point_json(point.x(), point.y(), z_m));
-  return {{"type", type},
-          {"pose", pose_json({}, 0.0)},
-          {"thickness", thickness_m},
-          {"scale_invariant", false},
-          {"points", std::move(points)},
-          {"color", color},
-          {"colors", Json::array()},
-          {"indices", Json::array()}};
+int level_number(const std::string& level) {
+  static const std::map<std::string, int> kLevels{
+      {"debug", 1}, {"info", 2}, {"warning", 3}, {"error", 4}, {"critical", 5}};
+  const auto found = kLevels.find(level);
+  return found == kLevels.end() ? 0 : found->second;
 }
 
-/// An entity of the scene: the one of the same id before it is replaced.
-Json entity_json(const std::string& id, Nanoseconds time) {
-  Json entity{{"timestamp", time_json(time)}, {"frame_id", "map"},     {"id", id},
-              {"lifetime", time_json(0)},     {"frame_locked", false}, {"metadata", Json::array()}};
-  for (const char* kind :
-       {"arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"}) {
-    entity[kind] = Json::array();
+mcap::JsonChannel log_channel(const FinishedRun& run, Nanoseconds begin) {
+  mcap::JsonChannel channel{.topic = "log",
+                            .type = kLog,
+                            .schema = schema_text(kLog, {{"timestamp", {{"type", "object"}}},
+                                                         {"level", {{"type", "integer"}}},
+                                                         {"message", {{"type", "string"}}},
+                                                         {"name", {{"type", "string"}}},
+                                                         {"file", {{"type", "string"}}},
+                                                         {"line", {{"type", "integer"}}}}),
+                            .messages = {}};
+  for (const result::LoggedLine& line : run.log) {
+    const double time_s = line.run_s.value_or(-1.0) + 1e-9 * static_cast<double>(begin);
+    if (!line.run_s || time_s < 0.0) continue;
+    const auto time = static_cast<Nanoseconds>(1e9 * time_s);
+    channel.messages.emplace_back(time, text_of({{"timestamp", time_json(time)},
+                                                 {"level", level_number(line.level)},
+                                                 {"message", line.text},
+                                                 {"name", line.process},
+                                                 {"file", ""},
+                                                 {"line", 0}}));
   }
-  return entity;
+  return channel;
 }
-
-std::string update_text(Json entities) {
-  return text_of({{"deletions", Json::array()}, {"entities", std::move(entities)}});
-}
-
-/// JSON schema of an object with these members, of these types.
-std::string schema_text(const char* title,
-                        const std::vector<std::pair<const char*, Json>>& members) {
-  Json schema{{"title", title}, {"type", "object"}};
-  for (const auto& [name, type] : members) schema["properties"][name] = type;
-  return text_of(schema);
-}
-
-mcap::JsonChannel scene_channel(const char* topic) {
-  const Json objects{{"type", "array"}, {"items", {{"type", "object"}}}};
-  return {.topic = topic,
-          .type = kSceneUpdate,
-          .schema = schema_text(kSceneUpdate, {{"deletions", objects}, {"entities", objects}}),
-          .messages = {}};
-}
-
-class Channels {
- public:
-  explicit Channels(const FinishedRun& run)
-      : run_(&run), begin_(run.facts.first_step.value_or(0) * run.facts.period) {
-    for (const result::VehicleDescription& vehicle : run.description.vehicles) {
-      if (!takes_part(vehicle.id, run.facts)) continue;
-      colors_[vehicle.id.value] = kCars.at(colors_.size() % kCars.size());
-      vehicles_.push_back(&vehicle);
-    }
-  }
-
-  [[nodiscard]] mcap::JsonChannel map() const {
-    Json lanes = entity_json("lanes", begin_);
-    if (run_->map) {
-      for (const auto& [id, lanelet] : run_->map->lanelets) {
-        for (const auto* bound : {&lanelet.left_m, &lanelet.right_m}) {
-          lanes["lines"].push_back(
-              lines_json(kLineStrip, *bound, 0.0, 0.008, color_json(kBound, 1.0)));
-        }
-      }
-    }
-    Json entities = Json::array({std::move(lanes)});
-    for (const result::VehicleDescription* vehicle : vehicles_) {
-      if (!vehicle->route) continue;
-      Json route = entity_json(fmt::format("route {}", vehicle->id.value), begin_);
-      route["lines"].push_back(lines_json(vehicle->route->is_closed() ? kLineLoop : kLineStrip,
-                                          vehicle->route->points_m(), 0.5 * kPlan_m, 0.004,
-                                          color_json(colors_.at(vehicle->id.value), 0.35)));
-      entities.push_back(std::move(route));
-    }
-    mcap::JsonChannel channel = scene_channel("scene/map");
-    channel.messages.emplace_back(begin_, update_text(std::move(entities)));
-    return channel;
-  }
-
-  [[nodiscard]] mcap::JsonChannel cars() const {
-    std::map<Nanoseconds, Json> frames;
-    for (const result::VehicleDescription* vehicle : vehicles_) {
-      const auto drive = run_->drives.find(vehicle->id.value);
-      if (drive == run_->drives.end()) continue;
-      std::optional<Nanoseconds> last;
-      for (const result::DrivenSample& sample : drive->second) {
-        if (last && sample.t < *last + kFrameTime) continue;
-        last = sample.t;
-        Json& frame = frames.try_emplace(sample.t, Json::array()).first->second;
-        frame.push_back(car(*vehicle, sample));
-      }
-    }
-    mcap::JsonChannel channel = scene_channel("scene/cars");
-    for (auto& [time, entities] : frames) {
-      channel.messages.emplace_back(time, update_text(std::move(entities)));
-    }
-    return channel;
-  }
-
-  [[nodiscard]] mcap::JsonChannel plans() const {
-    std::map<Nanoseconds, Json> frames;
-    for (const result::VehicleDescription* vehicle : vehicles_) {
-      std::vector<const result::StepRecord*> rows;
-      for (const result::StepRecord& row : run_->rows) {
-        if (row.record.report.vehicle == vehicle->id) rows.push_back(&row);
-      }
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        const Nanoseconds time = begin_ + rows[i]->step * run_->facts.period;
-        Json& frame = frames.try_emplace(time, Json::array()).first->second;
-        frame.push_back(plan(*vehicle, std::span(rows).subspan(i), time));
-      }
-    }
-    mcap::JsonChannel channel = scene_channel("scene/plans");
-    for (auto& [time, entities] : frames) {
-      channel.messages.emplace_back(time, update_text(std::move(entities)));
-    }
-    return channel;
-  }
-
-  [[nodiscard]] mcap::JsonChannel log() const {
-    mcap::JsonChannel channel{.topic = "log",
-                              .type = kLog,
-                              .schema = schema_text(kLog, {{"timestamp", {{"type", "object"}}},
-                                                           {"level", {{"type", "integer"}}},
-                                                           {"message", {{"type", "string"}}},
-                                                           {"name", {{"type", "string"}}},
-                                                           {"file", {{"type", "string"}}},
-                                                           {"line", {{"type", "integer"}}}}),
-                              .messages = {}};
-    for (const result::LoggedLine& line : run_->log) {
-      const double time_s = line.run_s.value_or(-1.0) + 1e-9 * static_cast<double>(begin_);
-      if (!line.run_s || time_s < 0.0) continue;
-      const auto time = static_cast<Nanoseconds>(1e9 * time_s);
-      channel.messages.emplace_back(time, text_of({{"timestamp", time_json(time)},
-                                                   {"level", level_number(line.level)},
-                                                   {"message", line.text},
-                                                   {"name", line.process},
-                                                   {"file", ""},
-                                                   {"line", 0}}));
-    }
-    return channel;
-  }
-
- private:
-  static int level_number(const std::string& level) {
-    static const std::map<std::string, int> kLevels{
-        {"debug", 1}, {"info", 2}, {"warning", 3}, {"error", 4}, {"critical", 5}};
-    const auto found = kLevels.find(level);
-    return found == kLevels.end() ? 0 : found->second;
-  }
-
-  [[nodiscard]] Json car(const result::VehicleDescription& vehicle,
-                         const result::DrivenSample& sample) const {
-    const Json color = color_json(colors_.at(vehicle.id.value), 1.0);
-    Json entity = entity_json(fmt::format("car {}", vehicle.id.value), sample.t);
-    entity["cubes"].push_back({{"pose", pose_json(sample.pose, 0.5 * kCarHeight_m)},
-                               {"size",
-                                {{"x", vehicle.footprint.length_m},
-                                 {"y", vehicle.footprint.width_m},
-                                 {"z", kCarHeight_m}}},
-                               {"color", color}});
-    entity["texts"].push_back({{"pose", pose_json(sample.pose, 2.0 * kCarHeight_m)},
-                               {"billboard", true},
-                               {"font_size", 0.1},
-                               {"scale_invariant", false},
-                               {"color", color_json({}, 1.0)},
-                               {"text", std::to_string(vehicle.id.value)}});
-    return entity;
-  }
-
-  /// The motion of the plan in force in the step of the first row, and of those that follow.
-  [[nodiscard]] Json plan(const result::VehicleDescription& vehicle,
-                          std::span<const result::StepRecord* const> rows, Nanoseconds time) const {
-    const Json color = color_json(colors_.at(vehicle.id.value), 0.8);
-    const result::StepRecord& row = *rows.front();
-    std::vector<Point> path_m;
-    for (const result::StepRecord* later :
-         rows.first(std::min(rows.size(), run_->description.horizon_steps + 1))) {
-      path_m.push_back(later->record.report.planned_pose.position_m());
-    }
-    Json entity = entity_json(fmt::format("plan {}", vehicle.id.value), time);
-    entity["metadata"].push_back(
-        {{"key", "status"}, {"value", coordination::to_string(row.record.report.status)}});
-    entity["lines"].push_back(lines_json(kLineStrip, path_m, kPlan_m, 0.01, color));
-    const automaton::Maneuver* const maneuver =
-        run_->description.automaton
-            ? result::maneuver_during(row, rows.size() > 1 ? rows[1] : nullptr,
-                                      run_->description.automaton->automaton())
-            : nullptr;
-    if (maneuver != nullptr) {
-      const ConvexPolygon area_m =
-          transformed(maneuver->swept_area_m, row.record.report.planned_pose);
-      entity["lines"].push_back(lines_json(kLineLoop, area_m.vertices_m, kPlan_m, 0.004, color));
-    }
-    return entity;
-  }
-
-  const FinishedRun* run_;
-  Nanoseconds begin_;  ///< t(0)
-  std::vector<const result::VehicleDescription*> vehicles_;
-  std::map<int, Rgb> colors_;
-};
 
 }  // namespace
 
 std::vector<mcap::JsonChannel> foxglove_channels(const FinishedRun& run) {
-  const Channels channels(run);
-  return {channels.map(), channels.cars(), channels.plans(), channels.log()};
+  const Nanoseconds begin = run.facts.first_step.value_or(0) * run.facts.period;
+  const Scene scene(run);
+  return {scene_channel("scene/map", {{begin, scene.map(begin)}}),
+          scene_channel("scene/cars", cars(run, scene)),
+          scene_channel("scene/plans", plans(run, scene, begin)), log_channel(run, begin)};
 }
 
 }  // namespace hlc::view

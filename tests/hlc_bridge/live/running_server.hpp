@@ -18,7 +18,8 @@ class RunningServer {
   explicit RunningServer(std::chrono::milliseconds patience = std::chrono::seconds{20},
                          std::uint16_t port = 0, const std::string& session = "1")
       : history_(session),
-        server_({.port = port, .patience = patience}, history_),
+        newest_(session),
+        server_({.port = port, .patience = patience}, history_, newest_),
         thread_([this] { server_.run(std::chrono::milliseconds{2}, [this] { tick(); }); }) {}
   ~RunningServer() {
     end();
@@ -48,6 +49,7 @@ class RunningServer {
   }
 
   History history_;
+  NewestMessages newest_;
   std::mutex mutex_;
   std::vector<std::string> next_;  ///< guarded by mutex_
   std::atomic<std::size_t> num_clients_{};

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hlc_bridge/view/page_json.hpp"
+#include "hlc_bridge/view/page_messages.hpp"
+
+namespace hlc::view {
+
+inline constexpr const char* kSceneUpdate = "foxglove.SceneUpdate";
+
+/// The scene of a run in the message types that viewers draw by themselves (Foxglove, Lichtblick),
+/// in JSON: entities of foxglove.SceneUpdate in the frame "map" of the scenario, metres; an entity
+/// replaces the earlier one of its id. Numbers that are not finite are 0.
+class Scene {
+ public:
+  /// @param run  description, map and facts.vehicle_ids; outlives the scene
+  explicit Scene(const FinishedRun& run);
+
+  /// Those that take part.
+  [[nodiscard]] std::span<const result::VehicleDescription* const> vehicles() const {
+    return vehicles_;
+  }
+
+  /// Bounds of the lanes, and the routes of the vehicles: all entities.
+  [[nodiscard]] Json map(Nanoseconds time) const;
+  /// Footprint and number.
+  [[nodiscard]] Json car(const result::VehicleDescription& vehicle, const Pose& pose,
+                         Nanoseconds time) const;
+  /// Planned path from the step of the first row on, area of the maneuver under way in it, and the
+  /// step's status.
+  /// @param rows  of the vehicle, by step; the second one shows what is driven in the first
+  /// @pre rows is not empty
+  [[nodiscard]] Json plan(const result::VehicleDescription& vehicle,
+                          std::span<const result::StepRecord* const> rows, Nanoseconds time) const;
+
+ private:
+  [[nodiscard]] Json color_of(const result::VehicleDescription& vehicle, double alpha) const;
+
+  const FinishedRun* run_;
+  std::vector<const result::VehicleDescription*> vehicles_;
+  std::map<int, std::size_t> colors_;  ///< numbers, by vehicle
+};
+
+/// A foxglove.SceneUpdate.
+[[nodiscard]] std::string scene_update(Json entities);
+[[nodiscard]] std::string scene_schema();
+
+/// {"sec": ..., "nsec": ...}
+[[nodiscard]] Json time_json(Nanoseconds time);
+
+/// JSON schema of an object with these members, of these types.
+[[nodiscard]] std::string schema_text(const char* title,
+                                      const std::vector<std::pair<const char*, Json>>& members);
+
+}  // namespace hlc::view
