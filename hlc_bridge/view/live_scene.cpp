@@ -91,7 +91,7 @@ void LiveScene::take(const ReportRecord& record) {
   const Nanoseconds time = row.step * run_.facts.period;
   new_reports_[id] = {report_json(record), time};
   if (const auto before = rows_.find(id); before != rows_.end() && before->second.step < row.step) {
-    const std::array rows{&before->second, &row};
+    const std::array<const result::StepRecord*, 2> rows{&before->second, &row};
     new_plans_[id] = {scene_.plan(**vehicle, rows, time), time};
   }
   rows_[id] = row;

@@ -61,6 +61,14 @@ class HttpClient {
     received_.erase(0, text.size());
     return text;
   }
+  /// So many bytes; fewer if the server ends before.
+  [[nodiscard]] std::string read_exactly(std::size_t size) {
+    while (received_.size() < size && receive()) {
+    }
+    std::string bytes = received_.substr(0, size);
+    received_.erase(0, bytes.size());
+    return bytes;
+  }
   [[nodiscard]] std::string read_all() {
     while (receive()) {
     }

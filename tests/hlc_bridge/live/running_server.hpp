@@ -32,6 +32,10 @@ class RunningServer {
     const std::lock_guard lock{mutex_};
     next_.push_back(messages);
   }
+  void append(view::SceneMessage message) {
+    const std::lock_guard lock{mutex_};
+    next_scene_.push_back(std::move(message));
+  }
   void end() { ends_ = true; }
 
   [[nodiscard]] std::uint16_t port() const { return server_.port(); }
@@ -44,6 +48,9 @@ class RunningServer {
     if (history_.has_ended()) return;
     const std::lock_guard lock{mutex_};
     for (const std::string& messages : std::exchange(next_, {})) history_.append(messages);
+    for (view::SceneMessage& message : std::exchange(next_scene_, {})) {
+      newest_.take(std::move(message));
+    }
     num_events_ = history_.size();
     if (ends_) history_.end();
   }
@@ -51,7 +58,8 @@ class RunningServer {
   History history_;
   NewestMessages newest_;
   std::mutex mutex_;
-  std::vector<std::string> next_;  ///< guarded by mutex_
+  std::vector<std::string> next_;               ///< guarded by mutex_
+  std::vector<view::SceneMessage> next_scene_;  ///< guarded by mutex_
   std::atomic<std::size_t> num_clients_{};
   std::atomic<std::size_t> num_events_{};
   std::atomic<bool> ends_{};

@@ -175,9 +175,10 @@ TEST(Server, OtherHostsAndMethodsAreRefused) {
 
 TEST(Server, APortThatIsTakenIsNamed) {
   const History history("1");
-  const Server first({.port = 0}, history);
+  const NewestMessages newest("1");
+  const Server first({.port = 0}, history, newest);
   try {
-    const Server second({.port = first.port()}, history);
+    const Server second({.port = first.port()}, history, newest);
     FAIL() << "two servers on one port";
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(std::string(error.what()),
@@ -187,8 +188,9 @@ TEST(Server, APortThatIsTakenIsNamed) {
 
 TEST(Server, WithoutAPortTheNextFreeOneIsTaken) {
   const History history("1");
-  const Server first({}, history);
-  const Server second({}, history);
+  const NewestMessages newest("1");
+  const Server first({}, history, newest);
+  const Server second({}, history, newest);
   EXPECT_GE(first.port(), kFirstPort);
   EXPECT_GT(second.port(), first.port());
   EXPECT_EQ(second.url(), "http://127.0.0.1:" + std::to_string(second.port()) + "/");
@@ -196,9 +198,10 @@ TEST(Server, WithoutAPortTheNextFreeOneIsTaken) {
 
 TEST(Server, AnAddressThatIsNotThisMachinesIsNamed) {
   const History history("1");
+  const NewestMessages newest("1");
   for (const char* address : {"here", "", "192.0.2.1"}) {
     try {
-      const Server server({.address = address, .port = 0}, history);
+      const Server server({.address = address, .port = 0}, history, newest);
       FAIL() << address;
     } catch (const std::invalid_argument& error) {
       EXPECT_THAT(error.what(), StartsWith(std::string("--listen = ") + address));
@@ -208,8 +211,9 @@ TEST(Server, AnAddressThatIsNotThisMachinesIsNamed) {
 
 TEST(Server, OnlyAnAddressBeyondLoopbackIsOpenToOthers) {
   const History history("1");
-  EXPECT_FALSE(Server({.port = 0}, history).is_open_to_others());
-  EXPECT_TRUE(Server({.address = "0.0.0.0", .port = 0}, history).is_open_to_others());
+  const NewestMessages newest("1");
+  EXPECT_FALSE(Server({.port = 0}, history, newest).is_open_to_others());
+  EXPECT_TRUE(Server({.address = "0.0.0.0", .port = 0}, history, newest).is_open_to_others());
 }
 
 }  // namespace

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "tests/support/http_client.hpp"
+
+namespace hlc::live {
+
+/// A websocket by RFC 6455, as far as the tests need it: short messages in one frame.
+class Websocket {
+ public:
+  struct Frame {
+    int opcode{};  ///< 1: text, 2: binary, 8: close, 9: ping
+    std::string payload;
+  };
+
+  /// Sends the request; `answer` is the head of what comes back.
+  explicit Websocket(std::uint16_t port, const std::string& more = kSubprotocol) : client_(port) {
+    client_.get("/",
+                "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
+                    more);
+    answer_ = client_.read_until("\r\n\r\n");
+  }
+
+  [[nodiscard]] const std::string& answer() const { return answer_; }
+
+  /// A text. The mask is zero.
+  void send(const std::string& text) const {
+    std::string frame{'\x81'};
+    if (text.size() < 126) {
+      frame.push_back(static_cast<char>(0x80 | text.size()));
+    } else {
+      frame.push_back(static_cast<char>(0x80 | 126));
+      frame.push_back(static_cast<char>(text.size() >> 8));
+      frame.push_back(static_cast<char>(text.size() & 0xFF));
+    }
+    client_.send(frame + std::string(4, '\0') + text);
+  }
+
+  /// The next frame but pings; nothing if the server has closed.
+  [[nodiscard]] std::optional<Frame> next() {
+    for (;;) {
+      const std::string head = client_.read_exactly(2);
+      if (head.size() < 2) return std::nullopt;
+      std::uint64_t size = static_cast<unsigned char>(head[1]);
+      if (size >= 126) {
+        const std::string long_size = client_.read_exactly(size == 126 ? 2 : 8);
+        size = 0;
+        for (const char byte : long_size) size = size << 8 | static_cast<unsigned char>(byte);
+      }
+      Frame frame{head[0] & 0x0F, client_.read_exactly(size)};
+      if (frame.opcode != 9) return frame;
+    }
+  }
+
+  static constexpr const char* kSubprotocol = "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n";
+
+ private:
+  test::HttpClient client_;
+  std::string answer_;
+};
+
+}  // namespace hlc::live

@@ -1,0 +1,74 @@
+#include "hlc_bridge/view/live_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/hlc_bridge/view/sample_run.hpp"
+
+namespace hlc::view {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+
+/// What is known of a run before it begins.
+FinishedRun before(const FinishedRun& run) {
+  FinishedRun begin = run;
+  begin.rows.clear();
+  begin.drives.clear();
+  begin.facts.first_step = {};
+  return begin;
+}
+
+std::vector<std::string> topics_of(const std::vector<SceneMessage>& messages) {
+  std::vector<std::string> topics;
+  for (const SceneMessage& one : messages) {
+    topics.push_back(LiveScene::channels().at(one.channel).topic);
+  }
+  return topics;
+}
+
+TEST(LiveScene, HasTheMapOnceAndThenOnlyWhatIsNew) {
+  const FinishedRun run = sample_run(2, 3);
+  LiveScene scene(before(run));
+  EXPECT_THAT(topics_of(scene.updates()), ElementsAre("scene/map"));
+  EXPECT_TRUE(scene.updates().empty());
+  scene.take(VehicleState{.vehicle_id = 1, .create_stamp = 40, .pose = {1.0, 2.0, 0.0}});
+  scene.take(VehicleState{.vehicle_id = 1, .create_stamp = 60, .pose = {1.5, 2.0, 0.0}});
+  scene.take(VehicleState{.vehicle_id = 9, .create_stamp = 60});
+  const std::vector<SceneMessage> updates = scene.updates();
+  ASSERT_THAT(topics_of(updates), ElementsAre("scene/cars"));
+  EXPECT_EQ(updates[0].time, 60U);
+  const json entities = json::parse(updates[0].text).at("entities");
+  ASSERT_EQ(entities.size(), 1U);
+  EXPECT_EQ(entities[0].at("cubes").at(0).at("pose").at("position").at("x"), 1.5);
+}
+
+TEST(LiveScene, APlanIsShownWhenTheNextReportShowsWhatIsDriven) {
+  const FinishedRun run = sample_run(2, 3);
+  LiveScene scene(before(run));
+  static_cast<void>(scene.updates());
+  scene.take(run.rows[0].record);
+  EXPECT_THAT(topics_of(scene.updates()), ElementsAre("reports"));
+  scene.take(run.rows[2].record);  // of the same car
+  const std::vector<SceneMessage> updates = scene.updates();
+  ASSERT_THAT(topics_of(updates), ElementsAre("scene/plans", "reports"));
+  const json plan = json::parse(updates[0].text).at("entities").at(0);
+  EXPECT_EQ(plan.at("id"), "plan 1");
+  EXPECT_EQ(plan.at("lines").at(0).at("points").size(), 2U);
+  const json report = json::parse(updates[1].text).at("reports").at(0);
+  EXPECT_EQ(report.at("vehicle"), 1);
+  EXPECT_EQ(report.at("step"), run.rows[2].record.report.step.value);
+  EXPECT_EQ(report.at("status"), "planned");
+}
+
+TEST(LiveScene, EveryChannelHasASchemaOfItsType) {
+  for (const SceneChannel& channel : LiveScene::channels()) {
+    EXPECT_EQ(json::parse(channel.schema).at("title"), channel.type);
+  }
+}
+
+}  // namespace
+}  // namespace hlc::view
