@@ -58,7 +58,8 @@ void declare(CLI::App& app, Flags& flags) {
                  "domain of the controllers; default: lab domain + 50");
   hlc::apps::declare_controller_peers(app, flags.controller_peers);
   app.footer(
-      "Publishes nothing: the run is the same with it. Ends with the run. Exit codes: 0 success, 2 "
+      "Foxglove connects to the same address by its websocket protocol. Publishes nothing: the run "
+      "is the same with it. Ends with the run. Exit codes: 0 success, 2 "
       "invalid input or no port, 4 failed.");
 }
 

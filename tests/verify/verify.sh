@@ -10,7 +10,8 @@ usage: verify.sh [--bin DIR] [--environment DIR] [--xml FILE] [RUN_FOLDER...]
 Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes. Without a run folder: drives
 paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, and paper_three_cars
 with real processes over DDS, checks all of them, and the negative controls of two; reads the recorded messages of the
-last one with the package mcap and, where npm is installed, decodes them by the types in the file as Foxglove does.
+last one with the package mcap and, where npm is installed, decodes them by the types in the file as Foxglove does, and
+watches a run in real time with its client.
   --bin DIR           the programs (default build/release/bin)
   --environment DIR   folder of the virtual environment, created if missing (default build/release/verify_environment)
   --xml FILE          a CommonRoad file of the one run folder, as written by export_commonroad; default: its export
@@ -72,17 +73,33 @@ drive() { # what, command ...
   echo "verify.sh: $what failed" >&2
   exit 4
 }
+# A run in real time, watched by Foxglove's own client.
+watch_live() {
+  local run address watched
+  timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --simulated_time=false --steps 15 --view \
+    --out "$out/live" >"$out/log" 2>&1 &
+  run=$!
+  while kill -0 "$run" 2>/dev/null && [[ -z ${address-} ]]; do
+    sleep 0.1
+    address=$(grep -o 'http://[^ ]*' "$out/log")
+  done
+  timeout 120 node "$out/live.mjs" "$address"
+  watched=$?
+  wait "$run" || { cat "$out/log" >&2; return 1; }
+  return "$watched"
+}
 echo "Driving"
 drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle --subgraphs A,B,C,D \
   --profile default,2022 --keep_runs --scenario_folder "$root/launch_scripts/scenarios" --out "$out/campaign"
 drive "run_lab.sh" timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --out "$out/processes"
 timeout 60 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/messages.py" "$out/processes" || exit 1
 if command -v npm >/dev/null; then
-  cp "$here/package.json" "$here/messages.mjs" "$out"
+  cp "$here/package.json" "$here/messages.mjs" "$here/live.mjs" "$out"
   if timeout 120 npm install --prefix "$out" --no-audit --no-fund --silent >"$out/log" 2>&1; then
     timeout 60 node "$out/messages.mjs" "$out/processes/run.mcap" || exit 1
+    watch_live || exit 1
   else
-    echo "verify.sh: types of messages not decoded, npm's packages not reachable" >&2
+    echo "verify.sh: types of messages and the live scene not checked, npm's packages not reachable" >&2
   fi
 fi
 for ((i = 0; i < 16; i++)); do runs+=("$out/campaign/runs/$i"); done
