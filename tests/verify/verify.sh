@@ -11,7 +11,7 @@ Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes. Witho
 paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, and paper_three_cars
 with real processes over DDS, checks all of them, and the negative controls of two; reads the recorded messages of the
 last one with the package mcap and, where npm is installed, decodes them by the types in the file as Foxglove does, and
-watches a run in real time with its client.
+watches a run under way with its client.
   --bin DIR           the programs (default build/release/bin)
   --environment DIR   folder of the virtual environment, created if missing (default build/release/verify_environment)
   --xml FILE          a CommonRoad file of the one run folder, as written by export_commonroad; default: its export
@@ -73,11 +73,11 @@ drive() { # what, command ...
   echo "verify.sh: $what failed" >&2
   exit 4
 }
-# A run in real time, watched by Foxglove's own client.
+# A run under way, watched by Foxglove's own client. In logical time, which waits for a machine that stands still.
 watch_live() {
   local run address watched
-  timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --simulated_time=false --steps 15 --view \
-    --out "$out/live" >"$out/log" 2>&1 &
+  timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --steps 2000 --page false --messages false \
+    --view --out "$out/live" >"$out/log" 2>&1 &
   run=$!
   while kill -0 "$run" 2>/dev/null && [[ -z ${address-} ]]; do
     sleep 0.1
