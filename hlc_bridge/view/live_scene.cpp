@@ -2,24 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace hlc::view {
 namespace {
 
 enum Channel : std::size_t { kMap, kCars, kPlans, kReports };
-
-using Parts = std::map<std::uint8_t, std::pair<Json, Nanoseconds>>;
-
-/// The parts of all vehicles in one array, and the newest of their times.
-std::pair<Json, Nanoseconds> joined(Parts& parts) {
-  Json all = Json::array();
-  Nanoseconds newest = 0;
-  for (auto& [id, part] : std::exchange(parts, {})) {
-    all.push_back(std::move(part.first));
-    newest = std::max(newest, part.second);
-  }
-  return {std::move(all), newest};
-}
 
 Json ids_json(const std::vector<VehicleId>& vehicles) {
   Json ids = Json::array();
@@ -79,29 +67,58 @@ const std::vector<SceneChannel>& LiveScene::channels() {
   return kChannels;
 }
 
-LiveScene::LiveScene(FinishedRun run) : run_(std::move(run)), scene_(run_) {}
+LiveScene::LiveScene(FinishedRun run) : run_(std::move(run)), scene_(run_) {
+  for (const result::VehicleDescription* vehicle : scene_.vehicles()) {
+    vehicles_[vehicle->id.value].description = vehicle;
+  }
+}
+
+LiveScene::Vehicle* LiveScene::find(std::uint8_t id) {
+  const auto found = vehicles_.find(id);
+  return found == vehicles_.end() ? nullptr : &found->second;
+}
 
 void LiveScene::take(const ReportRecord& record) {
-  const auto& vehicles = scene_.vehicles();
-  const auto vehicle =
-      std::ranges::find(vehicles, record.report.vehicle, [](const auto* one) { return one->id; });
-  if (vehicle == vehicles.end()) return;
-  const std::uint8_t id = record.report.vehicle.value;
-  const result::StepRecord row{.step = record.report.step.value, .record = record, .driven = {}};
-  const Nanoseconds time = row.step * run_.facts.period;
-  new_reports_[id] = {report_json(record), time};
-  if (const auto before = rows_.find(id); before != rows_.end() && before->second.step < row.step) {
-    const std::array<const result::StepRecord*, 2> rows{&before->second, &row};
-    new_plans_[id] = {scene_.plan(**vehicle, rows, time), time};
-  }
-  rows_[id] = row;
+  Vehicle* const vehicle = find(record.report.vehicle.value);
+  const std::uint64_t step = record.report.step.value;
+  if (vehicle == nullptr || (vehicle->row && vehicle->row->step >= step)) return;
+  vehicle->row_before =
+      std::exchange(vehicle->row, result::StepRecord{.step = step, .record = record, .driven = {}});
+  vehicle->has_new_row = true;
 }
 
 void LiveScene::take(const VehicleState& state) {
-  for (const result::VehicleDescription* vehicle : scene_.vehicles()) {
-    if (vehicle->id.value != state.vehicle_id) continue;
-    new_cars_[state.vehicle_id] = {scene_.car(*vehicle, state.pose, state.create_stamp),
-                                   state.create_stamp};
+  if (Vehicle* const vehicle = find(state.vehicle_id)) vehicle->state = state;
+}
+
+void LiveScene::add_cars(std::vector<SceneMessage>& messages) {
+  Json cars = Json::array();
+  Nanoseconds newest = 0;
+  for (auto& [id, vehicle] : vehicles_) {
+    const std::optional<VehicleState> state = std::exchange(vehicle.state, std::nullopt);
+    if (!state) continue;
+    cars.push_back(scene_.car(*vehicle.description, state->pose, state->create_stamp));
+    newest = std::max(newest, state->create_stamp);
+  }
+  if (!cars.empty()) messages.push_back({kCars, newest, scene_update(std::move(cars))});
+}
+
+void LiveScene::add_steps(std::vector<SceneMessage>& messages) {
+  Json plans = Json::array();
+  Json reports = Json::array();
+  Nanoseconds newest = 0;
+  for (auto& [id, vehicle] : vehicles_) {
+    if (!std::exchange(vehicle.has_new_row, false)) continue;
+    const Nanoseconds time = vehicle.row->step * run_.facts.period;
+    newest = std::max(newest, time);
+    reports.push_back(report_json(vehicle.row->record));
+    if (!vehicle.row_before) continue;
+    const std::array<const result::StepRecord*, 2> rows{&*vehicle.row_before, &*vehicle.row};
+    plans.push_back(scene_.plan(*vehicle.description, rows, time));
+  }
+  if (!plans.empty()) messages.push_back({kPlans, newest, scene_update(std::move(plans))});
+  if (!reports.empty()) {
+    messages.push_back({kReports, newest, text_of({{"reports", std::move(reports)}})});
   }
 }
 
@@ -110,18 +127,8 @@ std::vector<SceneMessage> LiveScene::updates() {
   if (!std::exchange(has_sent_map_, true)) {
     messages.push_back({kMap, 0, scene_update(scene_.map(0))});
   }
-  if (!new_cars_.empty()) {
-    auto [cars, time] = joined(new_cars_);
-    messages.push_back({kCars, time, scene_update(std::move(cars))});
-  }
-  if (!new_plans_.empty()) {
-    auto [plans, time] = joined(new_plans_);
-    messages.push_back({kPlans, time, scene_update(std::move(plans))});
-  }
-  if (!new_reports_.empty()) {
-    auto [reports, time] = joined(new_reports_);
-    messages.push_back({kReports, time, text_of({{"reports", std::move(reports)}})});
-  }
+  add_cars(messages);
+  add_steps(messages);
   return messages;
 }
 

@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "hlc_bridge/view/page_messages.hpp"
@@ -46,12 +45,23 @@ class LiveScene {
   [[nodiscard]] std::vector<SceneMessage> updates();
 
  private:
+  /// What was taken of a vehicle; drawn only when it is asked for, since states come far more
+  /// often.
+  struct Vehicle {
+    const result::VehicleDescription* description{};
+    std::optional<VehicleState> state;      ///< not yet sent
+    std::optional<result::StepRecord> row;  ///< the last one
+    std::optional<result::StepRecord> row_before;
+    bool has_new_row{};
+  };
+
+  [[nodiscard]] Vehicle* find(std::uint8_t id);
+  void add_cars(std::vector<SceneMessage>& messages);
+  void add_steps(std::vector<SceneMessage>& messages);
+
   FinishedRun run_;
   Scene scene_;
-  std::map<std::uint8_t, result::StepRecord> rows_;  ///< the last one of each vehicle
-  std::map<std::uint8_t, std::pair<Json, Nanoseconds>> new_cars_;
-  std::map<std::uint8_t, std::pair<Json, Nanoseconds>> new_plans_;
-  std::map<std::uint8_t, std::pair<Json, Nanoseconds>> new_reports_;
+  std::map<std::uint8_t, Vehicle> vehicles_;
   bool has_sent_map_{};
 };
 
