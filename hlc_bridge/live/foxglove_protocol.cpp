@@ -84,33 +84,41 @@ std::string message_data(std::uint32_t subscription, Nanoseconds time, std::stri
   return bytes;
 }
 
+std::string Subscriptions::subscribe(const Json& subscriptions) {
+  for (const Json& one : subscriptions) {
+    const auto id = id_in(one, "id");
+    const auto channel = id_in(one, "channelId");
+    if (!id || !channel || *channel >= num_channels_ || channels_.size() >= kMostSubscriptions) {
+      return fmt::format("a subscription's channelId must be in 0 ... {}, of at most {}",
+                         num_channels_ - 1, kMostSubscriptions);
+    }
+    channels_[*id] = *channel;
+  }
+  return {};
+}
+
+void Subscriptions::unsubscribe(const Json& ids) {
+  for (const Json& id : ids) {
+    std::erase_if(channels_, [&id](const auto& one) { return id == one.first; });
+  }
+}
+
 std::string Subscriptions::take(std::string_view message) {
   const Json json = Json::parse(message, nullptr, false);
-  const std::string op = json.is_object() ? json.value("op", Json{}).dump() : "";
-  if (op == "\"subscribe\"") {
-    const Json* subscriptions = array_in(json, "subscriptions");
-    if (subscriptions == nullptr) return status("subscribe without subscriptions");
-    for (const Json& one : *subscriptions) {
-      const auto id = id_in(one, "id");
-      const auto channel = id_in(one, "channelId");
-      if (!id || !channel || *channel >= num_channels_ || channels_.size() >= kMostSubscriptions) {
-        return status(
-            fmt::format("a subscription's channelId must be in 0 ... {}", num_channels_ - 1));
-      }
-      channels_[*id] = *channel;
-    }
+  const auto op = json.is_object() ? json.find("op") : json.end();
+  const auto is_op = [&](const char* name) { return op != json.end() && *op == name; };
+  if (!json.is_object() || (!is_op("subscribe") && !is_op("unsubscribe"))) {
+    return status("op must be subscribe or unsubscribe");
+  }
+  const char* const list = is_op("subscribe") ? "subscriptions" : "subscriptionIds";
+  const Json* const entries = array_in(json, list);
+  if (entries == nullptr) return status(fmt::format("{} must be an array", list));
+  if (is_op("unsubscribe")) {
+    unsubscribe(*entries);
     return {};
   }
-  if (op == "\"unsubscribe\"") {
-    const Json* ids = array_in(json, "subscriptionIds");
-    if (ids == nullptr) return status("unsubscribe without subscriptionIds");
-    for (const Json& id : *ids) {
-      if (id.is_number_unsigned())
-        channels_.erase(static_cast<std::uint32_t>(id.get<std::uint64_t>()));
-    }
-    return {};
-  }
-  return status("op must be subscribe or unsubscribe");
+  const std::string fault = subscribe(*entries);
+  return fault.empty() ? fault : status(fault);
 }
 
 }  // namespace hlc::live

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,10 @@ class Subscriptions {
   [[nodiscard]] const std::map<std::uint32_t, std::size_t>& channels() const { return channels_; }
 
  private:
+  /// @return what is wrong; empty: nothing
+  [[nodiscard]] std::string subscribe(const nlohmann::json& subscriptions);
+  void unsubscribe(const nlohmann::json& ids);
+
   std::size_t num_channels_;
   std::map<std::uint32_t, std::size_t> channels_;
 };

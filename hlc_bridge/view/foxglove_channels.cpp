@@ -20,7 +20,7 @@ Json& frame_at(Nanoseconds time, Frames& frames) {
   return frames.try_emplace(time, Json::array()).first->second;
 }
 
-mcap::JsonChannel scene_channel(const char* topic, Frames frames) {
+mcap::JsonChannel scene_channel(const char* topic, Frames&& frames) {
   mcap::JsonChannel channel{
       .topic = topic, .type = kSceneUpdate, .schema = scene_schema(), .messages = {}};
   for (auto& [time, entities] : frames) {
