@@ -15,7 +15,7 @@ namespace hlc::live {
 
 /// A client that draws the scene by itself, over a websocket. It gets the newest messages of the
 /// channels to which it has subscribed, when it has taken those before. One that takes nothing, or
-/// does not answer a ping, for about twice the patience is dropped.
+/// answers no ping, for the patience is dropped.
 class FoxgloveClient : public std::enable_shared_from_this<FoxgloveClient> {
  public:
   /// @param messages  outlives the client

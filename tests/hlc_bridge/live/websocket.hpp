@@ -31,12 +31,11 @@ class Websocket {
   /// A text. The mask is zero.
   void send(const std::string& text) const {
     std::string frame{'\x81'};
-    if (text.size() < 126) {
-      frame.push_back(static_cast<char>(0x80 | text.size()));
-    } else {
-      frame.push_back(static_cast<char>(0x80 | 126));
-      frame.push_back(static_cast<char>(text.size() >> 8));
-      frame.push_back(static_cast<char>(text.size() & 0xFF));
+    const int size_bytes = text.size() < 126 ? 0 : text.size() < 65'536 ? 2 : 8;
+    const std::size_t first = size_bytes == 0 ? text.size() : size_bytes == 2 ? 126 : 127;
+    frame.push_back(static_cast<char>(0x80 | first));
+    for (int i = size_bytes - 1; i >= 0; --i) {
+      frame.push_back(static_cast<char>(text.size() >> (8 * i) & 0xFF));
     }
     client_.send(frame + std::string(4, '\0') + text);
   }
