@@ -16,8 +16,8 @@ std::string domain_name(dds::DomainRole role) {
   return role == dds::DomainRole::kLocal ? "local/" : "controllers/";
 }
 
-std::optional<Nanoseconds> stamp_of(const dds::PublishedMessage& message, Nanoseconds period) {
-  return message.step ? message.step->value * period : message.time;
+std::optional<Nanoseconds> time_of(const dds::MessageStamp& stamp, Nanoseconds period) {
+  return stamp.step ? stamp.step->value * period : stamp.time;
 }
 
 }  // namespace
@@ -35,10 +35,11 @@ MessageRecording::OnPublished MessageRecording::open(const std::filesystem::path
       .on_failure = [process](const std::string& line) { spdlog::warn("{}: {}", process, line); }});
   // In real time the clock's time is the run's.
   return [recorder = recorder_, period, simulated_time](const dds::PublishedMessage& message) {
-    recorder->record({.topic = domain_name(message.role) + message.topic,
-                      .type = message.type,
-                      .cdr = message.cdr,
-                      .run = simulated_time ? stamp_of(message, period) : time::real_time_now()});
+    recorder->record(
+        {.topic = domain_name(message.role) + message.topic,
+         .type = message.type,
+         .cdr = message.cdr,
+         .run = simulated_time ? time_of(message.stamp, period) : time::real_time_now()});
   };
 }
 

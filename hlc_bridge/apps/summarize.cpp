@@ -1,5 +1,5 @@
-// Reads a run folder, writes steps.csv, timing.csv, summary.json, the run's configuration and
-// run.html, prints the table.
+// Reads a run folder, writes steps.csv, timing.csv, summary.json, the run's configuration, run.html
+// and run.mcap, prints the table.
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -57,17 +57,17 @@ std::string faults_of(const Verdict& verdict, const std::vector<std::string>& in
 std::filesystem::path page_file(const std::filesystem::path& run) { return run / "run.html"; }
 
 /// The run as pages and viewers show it.
-hlc::view::FinishedRun finished_run(const hlc::record::RunFolder& read, std::string fault) {
-  hlc::view::FinishedRun run{.description = read.description,
-                             .facts = read.facts,
-                             .rows = read.rows,
-                             .drives = read.drives,
-                             .map = std::nullopt,
-                             .log = hlc::record::read_logs(read.folder / "logs", read.facts),
-                             .time = read.facts.simulated_time ? "logical time" : "real time",
-                             .revision = hlc::program_revision(),
-                             .fault = std::move(fault)};
+hlc::view::FinishedRun finished_run(hlc::record::RunFolder read, std::string fault) {
+  hlc::view::FinishedRun run;
   if (read.scenario.map_file) run.map = hlc::road::read_lanelet_map(*read.scenario.map_file);
+  run.log = hlc::record::read_logs(read.folder / "logs", read.facts);
+  run.time = read.facts.simulated_time ? "logical time" : "real time";
+  run.description = std::move(read.description);
+  run.facts = std::move(read.facts);
+  run.rows = std::move(read.rows);
+  run.drives = std::move(read.drives);
+  run.revision = hlc::program_revision();
+  run.fault = std::move(fault);
   return run;
 }
 
@@ -114,12 +114,14 @@ struct Shown {
 };
 
 /// Writes what is asked for, and notes what it has written.
-void show(const Choices& choices, const hlc::view::FinishedRun& finished, Shown& shown) {
+void show(const Choices& choices, hlc::record::RunFolder read, std::string fault, Shown& shown) {
+  const std::vector<std::filesystem::path> parts = recorded_parts(choices.run);
+  if (!choices.page && parts.empty()) return;
+  const hlc::view::FinishedRun finished = finished_run(std::move(read), std::move(fault));
   if (choices.page) {
     hlc::write_file(page_file(choices.run), hlc::view::run_page(finished));
     shown.page = true;
   }
-  const std::vector<std::filesystem::path> parts = recorded_parts(choices.run);
   if (parts.empty()) return;
   write_messages(choices.run, parts, finished);
   shown.messages = true;
@@ -128,7 +130,7 @@ void show(const Choices& choices, const hlc::view::FinishedRun& finished, Shown&
 /// Returns the exit code.
 int summarize_run(const Choices& choices) {
   const std::filesystem::path& run = choices.run;
-  const hlc::record::RunFolder read = hlc::record::read_run_folder(run, choices.given);
+  hlc::record::RunFolder read = hlc::record::read_run_folder(run, choices.given);
   for (const std::string& line : read.incomplete) {
     std::cerr << "summarize: " << run.string() << ": " << line << '\n';
   }
@@ -145,7 +147,8 @@ int summarize_run(const Choices& choices) {
   Verdict verdict = verdict_on(summary);
   Shown shown;
   try {
-    show(choices, finished_run(read, faults_of(verdict, read.incomplete)), shown);
+    std::string fault = faults_of(verdict, read.incomplete);
+    show(choices, std::move(read), std::move(fault), shown);
   } catch (const std::exception& error) {  // the result does not depend on it
     const char* const missing = choices.page && !shown.page ? "run.html" : "run.mcap";
     std::cerr << "summarize: no " << missing << ": " << error.what() << '\n';

@@ -1,20 +1,12 @@
 #pragma once
 
-#include <optional>
-
+#include "hlc_bridge/dds/participant.hpp"
 #include "hlc_bridge/messages/automaton_messages.hpp"
 #include "hlc_bridge/messages/messages.hpp"
 #include "hlc_bridge/messages/run_messages.hpp"
 #include "planner/coordination/messages.hpp"
 
 namespace hlc::dds {
-
-/// The instant or the step of the run at which a message was published, as far as the message
-/// itself shows it.
-struct MessageStamp {
-  std::optional<Nanoseconds> time;
-  std::optional<StepIndex> step;
-};
 
 template <class Message>
 [[nodiscard]] MessageStamp stamp_of(const Message& message) {

@@ -18,15 +18,20 @@ namespace hlc::dds {
 
 class ParticipantCore;  // Fast DDS lives behind this
 
+/// The instant or the step of the run at which a message was published, as far as the message
+/// itself shows it.
+struct MessageStamp {
+  std::optional<Nanoseconds> time;
+  std::optional<StepIndex> step;
+};
+
 /// A message as a writer published it.
 struct PublishedMessage {
   DomainRole role{};         ///< of the domain
   const std::string& topic;  ///< its name on the domain
   const std::string& type;   ///< in IDL: "VehicleState", "hlc::TrafficMessage"
   std::string_view cdr;      ///< with the encapsulation header
-  /// What it belongs to, if it has a stamp: an instant or a step of the run.
-  std::optional<Nanoseconds> time;
-  std::optional<StepIndex> step;
+  MessageStamp stamp;
 };
 
 struct ParticipantOptions {

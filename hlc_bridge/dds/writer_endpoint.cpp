@@ -45,8 +45,7 @@ void WriterEndpoint::observe(void* sample, const MessageStamp& stamp) const {
        .topic = topic_,
        .type = type_.get_type_name(),
        .cdr = {reinterpret_cast<const char*>(payload.data), payload.length},
-       .time = stamp.time,
-       .step = stamp.step});
+       .stamp = stamp});
 }
 
 void WriterEndpoint::on_publication_matched(fdds::DataWriter*,

@@ -144,9 +144,7 @@ std::string IndexedFile::summary() const {
 void IndexedFile::finish() {
   end_chunk();
   std::string bytes;
-  std::string no_checksum;
-  append(no_checksum, std::uint32_t{0});
-  append_record(bytes, Opcode::kDataEnd, no_checksum);
+  append_data_end(bytes);
   const std::uint64_t summary_start = written_ + bytes.size();
   const std::string text = summary();
   bytes += text;

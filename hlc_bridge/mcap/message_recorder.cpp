@@ -58,10 +58,10 @@ void MessageRecorder::record(const PublishedMessage& message) {
       has_failed_ = true;
       return;
     }
-    const std::uint16_t channel = channel_of(message);
+    Topic& topic = topic_of(message);
     if (message.run) newest_ = std::max(newest_, *message.run);
-    append_message(bytes_, {.channel = channel,
-                            .sequence = sequences_[channel]++,
+    append_message(bytes_, {.channel = topic.channel,
+                            .sequence = topic.count++,
                             .log_time = message.run.value_or(newest_),
                             .publish_time = wall,
                             .payload = message.cdr});
@@ -69,9 +69,9 @@ void MessageRecorder::record(const PublishedMessage& message) {
   if (is_first) changed_.notify_one();
 }
 
-std::uint16_t MessageRecorder::channel_of(const PublishedMessage& message) {
-  const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
-  const auto [found, is_new] = channels_.try_emplace(message.topic, id);
+MessageRecorder::Topic& MessageRecorder::topic_of(const PublishedMessage& message) {
+  const auto id = static_cast<std::uint16_t>(topics_.size() + 1);
+  const auto [found, is_new] = topics_.try_emplace(message.topic, Topic{.channel = id});
   if (is_new) {
     append_schema(
         bytes_, id,

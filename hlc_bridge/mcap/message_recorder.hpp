@@ -60,7 +60,12 @@ class MessageRecorder {
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
  private:
-  [[nodiscard]] std::uint16_t channel_of(const PublishedMessage& message);
+  struct Topic {
+    std::uint16_t channel{};  ///< id
+    std::uint32_t count{};    ///< of messages
+  };
+
+  [[nodiscard]] Topic& topic_of(const PublishedMessage& message);
   void write_until_closed();
   /// @return errno, 0: all is written
   [[nodiscard]] int write(std::string_view bytes);
@@ -71,9 +76,8 @@ class MessageRecorder {
 
   std::mutex mutex_;  ///< guards the following ones
   std::condition_variable changed_;
-  std::string bytes_;                              ///< not yet written
-  std::map<std::string, std::uint16_t> channels_;  ///< ids by topic
-  std::map<std::uint16_t, std::uint32_t> sequences_;
+  std::string bytes_;  ///< not yet written
+  std::map<std::string, Topic> topics_;
   Nanoseconds newest_{};
   bool is_closed_{};
   bool has_failed_{};

@@ -103,10 +103,14 @@ void append_message(std::string& bytes, const Message& message) {
   bytes.append(message.payload);
 }
 
-void append_end(std::string& bytes) {
+void append_data_end(std::string& bytes) {
   std::string no_checksum;
   append(no_checksum, std::uint32_t{0});
   append_record(bytes, Opcode::kDataEnd, no_checksum);
+}
+
+void append_end(std::string& bytes) {
+  append_data_end(bytes);
   std::string footer;
   append(footer, std::uint64_t{0});  // no summary
   append(footer, std::uint64_t{0});  // no summary offsets

@@ -72,6 +72,7 @@ void append_header(std::string& bytes);
 void append_schema(std::string& bytes, std::uint16_t id, const Schema& schema);
 void append_channel(std::string& bytes, std::uint16_t id, const Channel& channel);
 void append_message(std::string& bytes, const Message& message);
+void append_data_end(std::string& bytes);
 /// End of the data of a file without a summary, and the file's end.
 void append_end(std::string& bytes);
 

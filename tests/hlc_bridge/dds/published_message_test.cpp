@@ -27,7 +27,7 @@ class PublishedMessages : public testing::Test {
     ParticipantOptions options = on_loopback("sender", domain_.first(), role);
     options.on_published = [this](const PublishedMessage& message) {
       published_.push_back({message.role, message.topic, message.type, std::string(message.cdr),
-                            message.time, message.step});
+                            message.stamp.time, message.stamp.step});
     };
     return Participant(options);
   }

@@ -45,14 +45,7 @@ template <> struct Place<RunState> { static auto topic() { return topics::run_st
 
 template <class Message>
 class RoundTrip : public testing::Test {};
-using Messages =
-    testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
-                   PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
-                   SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
-                   Visualization, GoalState, coordination::Traffic, coordination::Prediction,
-                   coordination::Outcome, ReportRecord, RunState, AutomatonRequest,
-                   AutomatonAnswer>;
-TYPED_TEST_SUITE(RoundTrip, Messages);
+TYPED_TEST_SUITE(RoundTrip, AllMessages);
 
 TYPED_TEST(RoundTrip, MessagesArriveAsTheyWereWrittenAndInOrder) {
   const unsigned seed = 4;

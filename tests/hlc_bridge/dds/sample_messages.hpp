@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <random>
 #include <string>
 
@@ -11,6 +13,15 @@
 /// Messages to send in tests, every field with a value of its own, and their text, which names
 /// every field: two messages are equal if and only if their texts are.
 namespace hlc::dds {
+
+/// Every message that has a type on the wire.
+using AllMessages =
+    testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
+                   PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
+                   SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
+                   Visualization, GoalState, coordination::Traffic, coordination::Prediction,
+                   coordination::Outcome, ReportRecord, RunState, AutomatonRequest,
+                   AutomatonAnswer>;
 
 /// A valid message of random content.
 template <class Message>

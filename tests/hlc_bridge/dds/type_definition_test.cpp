@@ -7,20 +7,14 @@
 #include <set>
 
 #include "hlc_bridge/dds/wire.hpp"
+#include "tests/hlc_bridge/dds/sample_messages.hpp"
 
 namespace hlc::dds::type_definition_test {
 namespace {
 
 template <class Message>
 class TypeDefinition : public testing::Test {};
-using Messages =
-    testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
-                   PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
-                   SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
-                   Visualization, GoalState, coordination::Traffic, coordination::Prediction,
-                   coordination::Outcome, ReportRecord, RunState, AutomatonRequest,
-                   AutomatonAnswer>;
-TYPED_TEST_SUITE(TypeDefinition, Messages);
+TYPED_TEST_SUITE(TypeDefinition, AllMessages);
 
 TYPED_TEST(TypeDefinition, DefinesTheTypeAndAllThatItUsesEachOnceAndBefore) {
   const std::string type = type_support<TypeParam>(Transport::kLab).get_type_name();

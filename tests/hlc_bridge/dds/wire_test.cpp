@@ -43,14 +43,7 @@ TEST(WireType, ABooleanThatIsNeitherTrueNorFalseIsNoMessage) {
 
 template <class Message>
 class WireTypes : public testing::Test {};
-using Messages =
-    testing::Types<VehicleState, VehicleObservation, VehicleStateList, TrajectoryCommand,
-                   PathTrackingCommand, SpeedCurvatureCommand, DirectCommand, ReadyStatus,
-                   SystemTrigger, Parameter, ParameterRequest, StopRequest, Log, LogLevel,
-                   Visualization, GoalState, coordination::Traffic, coordination::Prediction,
-                   coordination::Outcome, ReportRecord, RunState, AutomatonRequest,
-                   AutomatonAnswer>;
-TYPED_TEST_SUITE(WireTypes, Messages);
+TYPED_TEST_SUITE(WireTypes, AllMessages);
 
 // Cut off, overwritten in places, or both: a message or not, but never an exception, and never a
 // value that our checks let through although it is not finite (from_wire is called on whatever can
