@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <set>
@@ -109,7 +110,13 @@ class Drives {
 
   /// @param dump  receives the planning problems; may be nullptr
   [[nodiscard]] Driven as_it_was(const hlc::scenario::ProblemDump* dump) const {
-    return drive(options_, dump);
+    std::optional<hlc::apps::ExplainedStep::Choice> choice;
+    Driven driven = drive(options_, [&](const hlc::controller::Controller& controller) {
+      if (dump != nullptr) dump->write(controller);
+      if (controller.has_plan()) choice = choice_of(controller);
+    });
+    driven.choice = std::move(choice);
+    return driven;
   }
 
   [[nodiscard]] hlc::apps::ExplainedStep::Without without(std::vector<VehicleId> gone) const {
@@ -118,19 +125,21 @@ class Drives {
     for (const VehicleId one : gone)
       fork.changes.emplace_back(hlc::closed_loop::Fork::Without{one});
     options.forks.push_back(std::move(fork));
-    return {.gone = std::move(gone), .outcome = drive(std::move(options), nullptr).outcome};
+    return {.gone = std::move(gone),
+            .outcome = drive(std::move(options), [](const auto&) {}).outcome};
   }
 
  private:
-  [[nodiscard]] Driven drive(hlc::closed_loop::ExperimentOptions options,
-                             const hlc::scenario::ProblemDump* dump) const {
+  /// @param look  at the vehicle's controller after the step
+  [[nodiscard]] Driven drive(
+      hlc::closed_loop::ExperimentOptions options,
+      const std::function<void(const hlc::controller::Controller&)>& look) const {
     Driven driven;
     options.after_step = [&](const hlc::controller::Controller& controller) {
       const std::uint64_t step = controller.last_step().value - *run_.facts.first_step;
       if (step != choices_.step || controller.options().vehicle.value != choices_.vehicle) return;
       driven.outcome.ahead_m = controller.has_plan() ? ahead_m(controller) : 0.0;
-      if (dump != nullptr) dump->write(controller);
-      if (controller.has_plan()) driven.choice = choice_of(controller);
+      look(controller);
     };
     const hlc::closed_loop::Experiment experiment =
         hlc::closed_loop::drive_experiment(run_.scenario, options);
