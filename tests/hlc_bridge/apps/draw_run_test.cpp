@@ -150,6 +150,18 @@ class DrawRun : public testing::Test {
     return file(name);
   }
 
+  /// Returns once it is being encoded; whatever it needs meanwhile is in this new folder.
+  [[nodiscard]] ChildProcess begin_long_video(const fs::path& temporary) const {
+    fs::create_directory(temporary);
+    ::setenv("TMPDIR", temporary.c_str(), 1);
+    ChildProcess program({build_folder() + "/bin/draw_run", run().string(), "--speed", "0.01",
+                          "--video", file("run.mp4").string()},
+                         file("log"));
+    ::unsetenv("TMPDIR");
+    EXPECT_TRUE(eventually(60s, [&] { return is_run("file:" + temporary.string()); }));
+    return program;
+  }
+
   TemporaryFolder folder_;
 
  private:
@@ -209,13 +221,7 @@ TEST_F(DrawRun, AVideoHasTheAskedSizePicturesAndDuration) {
 TEST_F(DrawRun, AnInterruptedOneLeavesNothing) {
   if (!can_draw()) GTEST_SKIP() << "no chromium or no ffmpeg on this machine";
   const fs::path temporary = file("temporary");
-  fs::create_directory(temporary);
-  ::setenv("TMPDIR", temporary.c_str(), 1);
-  ChildProcess program({build_folder() + "/bin/draw_run", run().string(), "--speed", "0.01",
-                        "--video", file("run.mp4").string()},
-                       file("log"));
-  ::unsetenv("TMPDIR");
-  ASSERT_TRUE(eventually(60s, [&] { return is_run("file:" + temporary.string()); }));
+  ChildProcess program = begin_long_video(temporary);
   program.send(SIGINT);
   EXPECT_EQ(program.wait_for(60s), kExitInterrupted) << read_text(file("log"));
   EXPECT_TRUE(fs::is_empty(temporary));
@@ -226,13 +232,7 @@ TEST_F(DrawRun, AnInterruptedOneLeavesNothing) {
 TEST_F(DrawRun, NeitherBrowserNorFfmpegOutlivesAKilledOne) {
   if (!can_draw()) GTEST_SKIP() << "no chromium or no ffmpeg on this machine";
   const fs::path temporary = file("temporary");
-  fs::create_directory(temporary);
-  ::setenv("TMPDIR", temporary.c_str(), 1);
-  ChildProcess program({build_folder() + "/bin/draw_run", run().string(), "--speed", "0.01",
-                        "--video", file("run.mp4").string()},
-                       file("log"));
-  ::unsetenv("TMPDIR");
-  ASSERT_TRUE(eventually(60s, [&] { return is_run("file:" + temporary.string()); }));
+  ChildProcess program = begin_long_video(temporary);
   program.send(SIGKILL);
   EXPECT_TRUE(eventually(60s, [&] { return !is_run(temporary.string()); }));
   EXPECT_FALSE(fs::exists(file("run.mp4")));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "hlc_bridge/view/page_files.hpp"
 #include "tests/hlc_bridge/view/sample_run.hpp"
 
 namespace hlc::view {
@@ -56,6 +57,31 @@ TEST(FoxgloveChannels, EveryCarIsWhereItDroveEvery40Milliseconds) {
     for (std::size_t i = 1; i < of_car.size(); ++i) {
       EXPECT_EQ(of_car[i] - of_car[i - 1], 40'000'000U);
     }
+  }
+}
+
+/// Of page.css, "#d55e00", as numbers in [0, 1].
+std::vector<double> colour_of_page(std::size_t car) {
+  const std::string& css = page_files().at("page.css");
+  const std::string name = "--car-" + std::to_string(car) + ": #";
+  const std::string hex = css.substr(css.find(name) + name.size(), 6);
+  std::vector<double> colour;
+  for (std::size_t i = 0; i < 6; i += 2) {
+    colour.push_back(std::stoi(hex.substr(i, 2), nullptr, 16) / 255.0);
+  }
+  return colour;
+}
+
+TEST(FoxgloveChannels, CarsHaveTheColoursThatTheyHaveOnThePage) {
+  const Messages cars = messages_of(sample_run(9, 1), "scene/cars");
+  const auto& entities = cars.at(0).second.at("entities");
+  ASSERT_EQ(entities.size(), 9U);
+  for (std::size_t car = 0; car < entities.size(); ++car) {
+    const auto& colour = entities[car].at("cubes").at(0).at("color");
+    const std::vector<double> expected = colour_of_page(car % 8);
+    EXPECT_NEAR(colour.at("r"), expected[0], 1e-3) << car;
+    EXPECT_NEAR(colour.at("g"), expected[1], 1e-3) << car;
+    EXPECT_NEAR(colour.at("b"), expected[2], 1e-3) << car;
   }
 }
 

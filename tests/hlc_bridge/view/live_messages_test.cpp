@@ -17,15 +17,6 @@ using testing::SizeIs;
 
 constexpr Nanoseconds kBegin = 1'400'000'000;  // of sample_run
 
-/// What is known of a run before it begins.
-FinishedRun before(const FinishedRun& run) {
-  FinishedRun begin = run;
-  begin.rows.clear();
-  begin.drives.clear();
-  begin.facts.first_step = {};
-  return begin;
-}
-
 VehicleState state_at(Nanoseconds t) { return {.vehicle_id = 1, .create_stamp = t}; }
 
 std::vector<json> of_kind(const std::string& kind, const std::string& portion) {

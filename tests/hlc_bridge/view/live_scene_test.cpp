@@ -13,15 +13,6 @@ namespace {
 using nlohmann::json;
 using testing::ElementsAre;
 
-/// What is known of a run before it begins.
-FinishedRun not_begun(const FinishedRun& run) {
-  FinishedRun begin = run;
-  begin.rows.clear();
-  begin.drives.clear();
-  begin.facts.first_step = {};
-  return begin;
-}
-
 std::vector<std::string> topics_of(const std::vector<SceneMessage>& messages) {
   std::vector<std::string> topics;
   for (const SceneMessage& one : messages) {
@@ -32,7 +23,7 @@ std::vector<std::string> topics_of(const std::vector<SceneMessage>& messages) {
 
 TEST(LiveScene, HasTheMapOnceAndThenOnlyWhatIsNew) {
   const FinishedRun run = sample_run(2, 3);
-  LiveScene scene(not_begun(run));
+  LiveScene scene(before(run));
   EXPECT_THAT(topics_of(scene.updates()), ElementsAre("scene/map"));
   EXPECT_TRUE(scene.updates().empty());
   scene.take(VehicleState{.vehicle_id = 1, .create_stamp = 40, .pose = {1.0, 2.0, 0.0}});
@@ -48,7 +39,7 @@ TEST(LiveScene, HasTheMapOnceAndThenOnlyWhatIsNew) {
 
 TEST(LiveScene, APlanIsShownWhenTheNextReportShowsWhatIsDriven) {
   const FinishedRun run = sample_run(2, 3);
-  LiveScene scene(not_begun(run));
+  LiveScene scene(before(run));
   static_cast<void>(scene.updates());
   scene.take(run.rows[0].record);
   EXPECT_THAT(topics_of(scene.updates()), ElementsAre("reports"));

@@ -94,4 +94,12 @@ FinishedRun sample_run(std::uint8_t cars, std::uint64_t steps, const std::string
   return run;
 }
 
+FinishedRun before(const FinishedRun& run) {
+  FinishedRun begin = run;
+  begin.rows.clear();
+  begin.drives.clear();
+  begin.facts.first_step = {};
+  return begin;
+}
+
 }  // namespace hlc::view

@@ -17,4 +17,7 @@ inline constexpr std::uint64_t kFallsBackIn = 8;
 [[nodiscard]] FinishedRun sample_run(std::uint8_t cars, std::uint64_t steps,
                                      const std::string& name = "red");
 
+/// What is known of a run before it begins.
+[[nodiscard]] FinishedRun before(const FinishedRun& run);
+
 }  // namespace hlc::view
