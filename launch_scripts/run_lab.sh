@@ -296,7 +296,7 @@ flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport
 if $view; then # whatever becomes of it, the run goes on
   view_log=$out/logs/view.txt
   with_me "$bin/view" --dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" \
-    "${choices[@]}" </dev/null >"$view_log" 2>&1 &
+    --logs "$out/logs" "${choices[@]}" </dev/null >"$view_log" 2>&1 &
   view_process=$!
   deadline=$((SECONDS + startup_timeout_s))
   while ! grep -qs '^view: http' "$view_log" && any_runs "$view_process" && ((SECONDS < deadline)); do sleep 0.05; done

@@ -14,6 +14,7 @@
 #include "hlc_bridge/live/lab_listener.hpp"
 #include "hlc_bridge/live/server.hpp"
 #include "hlc_bridge/machine/pacing.hpp"
+#include "hlc_bridge/record/log_files.hpp"
 #include "hlc_bridge/result/run_description.hpp"
 #include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/view/live_messages.hpp"
@@ -33,6 +34,7 @@ struct Flags {
   std::vector<int> vehicle_ids;
   std::optional<int> controller_domain;
   std::vector<std::string> controller_peers;
+  std::filesystem::path logs;
 };
 
 void declare(CLI::App& app, Flags& flags) {
@@ -49,6 +51,8 @@ void declare(CLI::App& app, Flags& flags) {
                  "vehicles that take part, e.g. 1,2,3; default: the scenario's")
       ->delimiter(',')
       ->check(hlc::apps::vehicle_id_range());
+  app.add_option("--logs", flags.logs,
+                 "folder in which the processes write their logs (*.log), for the page");
   hlc::apps::declare_scenario_flags(app, flags.scenario);
   app.add_option("--simulated_time", flags.network.simulated_time,
                  "of the run; true: logical time, false: real time")
@@ -82,6 +86,7 @@ hlc::view::FinishedRun begin_of_run(const Flags& flags) {
   run.description = hlc::result::describe(scenario, std::nullopt);
   add_others(flags.vehicle_ids, run.description);
   if (scenario.map_file) run.map = hlc::road::read_lanelet_map(*scenario.map_file);
+  run.facts.simulated_time = flags.network.simulated_time;
   run.time = flags.network.simulated_time ? "logical time" : "real time";
   run.revision = hlc::program_revision();
   run.facts.period = static_cast<hlc::Nanoseconds>(std::llround(run.description.step_s * 1e9));
@@ -124,6 +129,7 @@ class View {
         newest_(std::to_string(hlc::time::real_time_now())),
         server_(flags.server, history_, newest_),
         listener_(listener_options(flags, run.facts.vehicle_ids)),
+        logs_(flags.logs),
         scene_(run),
         messages_(std::move(run)) {
     if (server_.is_open_to_others()) {
@@ -145,6 +151,7 @@ class View {
     const hlc::live::LabListener::Received received = listener_.take();
     for (const hlc::ReportRecord& record : received.reports) take(record);
     for (const hlc::VehicleState& state : received.states) take(state);
+    messages_.take(logs_.new_lines(messages_.facts()));
     for (hlc::view::SceneMessage& message : scene_.updates()) newest_.take(std::move(message));
     ticks_after_run_ = listener_.run_is_over() ? ticks_after_run_ + 1 : 0;
     if (stop_ || ticks_after_run_ > kLastTicks) return end("The run has ended.");
@@ -171,6 +178,7 @@ class View {
   hlc::live::NewestMessages newest_;
   hlc::live::Server server_;
   hlc::live::LabListener listener_;
+  hlc::record::GrowingLogs logs_;
   hlc::view::LiveScene scene_;
   hlc::view::LiveMessages messages_;
   int ticks_after_run_{};

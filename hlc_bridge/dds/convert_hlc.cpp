@@ -169,6 +169,20 @@ bool is_known(RunPhase phase) {
   return false;
 }
 
+bool has_valid_plan(const ReportMessage& wire) {
+  return wire.plan_trims().size() == wire.plan_labels().size() &&
+         std::ranges::all_of(wire.plan_labels(),
+                             [](const std::string& label) { return label.size() <= kMaxText; });
+}
+
+std::vector<coordination::PlannedManeuver> plan_from_wire(const ReportMessage& wire) {
+  std::vector<coordination::PlannedManeuver> plan;
+  for (std::size_t i = 0; i < wire.plan_trims().size(); ++i) {
+    plan.push_back({.to = {wire.plan_trims()[i]}, .label = wire.plan_labels()[i]});
+  }
+  return plan;
+}
+
 bool is_valid(const ReportMessage& wire) {
   return dds::is_valid(VehicleId{wire.vehicle_id()}) &&
          is_known(static_cast<coordination::StepStatus>(wire.status())) &&
@@ -178,7 +192,8 @@ bool is_valid(const ReportMessage& wire) {
          wire.subgraph().size() <= kMaxText &&
          all_finite(wire.cost_m2(), wire.gap_m2(), wire.deviation_m()) &&
          is_valid(wire.coupled()) && is_valid(wire.missing()) && is_valid(wire.waits_for()) &&
-         is_valid(wire.blocked_by()) && wire.waits_since() <= wire.step();
+         is_valid(wire.blocked_by()) && wire.waits_since() <= wire.step() && has_valid_plan(wire) &&
+         all_finite(wire.held_place_m(), wire.held_ahead_m());
 }
 
 }  // namespace
@@ -285,7 +300,7 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns, response_ns] = message;
   const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,
                cost_m2, quality, gap_m2, generated, expanded, level, coupled, missing, deviation_m,
-               waiting, blocked_by] = report;
+               waiting, blocked_by, plan, held] = report;
   const auto& [waits_for, waits_since] = waiting;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
@@ -311,6 +326,15 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   wire.waits_for(ids_to_wire(waits_for));
   wire.waits_since(waits_since.value);
   wire.blocked_by(ids_to_wire(blocked_by));
+  for (const auto& [to, label] : plan) {
+    wire.plan_trims().push_back(static_cast<std::uint32_t>(to.index));
+    wire.plan_labels().push_back(label.substr(0, kMaxText));
+  }
+  wire.holds_road(held.has_value());
+  const auto& [held_route, held_place_m, held_ahead_m] = held.value_or(coordination::HeldRoad{});
+  wire.held_route(held_route);
+  wire.held_place_m(held_place_m);
+  wire.held_ahead_m(held_ahead_m);
 }
 
 Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
@@ -336,7 +360,13 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
       .missing = ids_from_wire(wire.missing()),
       .deviation_m = wire.deviation_m(),
       .waiting = {.vehicles = ids_from_wire(wire.waits_for()), .since = {wire.waits_since()}},
-      .blocked_by = ids_from_wire(wire.blocked_by())};
+      .blocked_by = ids_from_wire(wire.blocked_by()),
+      .plan = plan_from_wire(wire),
+      .held = wire.holds_road()
+                  ? std::optional{coordination::HeldRoad{.route = wire.held_route(),
+                                                         .place_m = wire.held_place_m(),
+                                                         .ahead_m = wire.held_ahead_m()}}
+                  : std::nullopt};
   return {ReportRecord{.report = report,
                        .planning_ns = wire.planning_ns(),
                        .deadline_missed = wire.deadline_missed(),

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <ctime>
+#include <fstream>
 #include <iomanip>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -73,6 +75,23 @@ void add_lines(const std::filesystem::path& file, const result::RunFacts& facts,
   }
 }
 
+result::LoggedLine further_lines(const std::string& what, const std::filesystem::path& folder) {
+  return {.process = "logs",
+          .stamp = {},
+          .level = {},
+          .text = fmt::format("{}, see the files in {}", what, folder.filename().string()),
+          .run_s = {}};
+}
+
+/// What the file has from this byte on, up to its last line feed.
+std::string complete_lines(const std::filesystem::path& file, std::size_t from) {
+  std::ifstream stream(file, std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(from));
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  text.resize(text.rfind('\n') + 1);
+  return text;
+}
+
 }  // namespace
 
 std::vector<result::LoggedLine> read_logs(const std::filesystem::path& folder,
@@ -86,12 +105,27 @@ std::vector<result::LoggedLine> read_logs(const std::filesystem::path& folder,
     lines.push_back(std::move(one.line));
   }
   if (placed.size() > lines.size()) {
-    lines.push_back({.process = "logs",
-                     .stamp = {},
-                     .level = {},
-                     .text = fmt::format("{} further lines, see the files in {}",
-                                         placed.size() - lines.size(), folder.filename().string()),
-                     .run_s = {}});
+    lines.push_back(
+        further_lines(fmt::format("{} further lines", placed.size() - lines.size()), folder));
+  }
+  return lines;
+}
+
+std::vector<result::LoggedLine> GrowingLogs::new_lines(const result::RunFacts& facts) {
+  std::vector<result::LoggedLine> lines;
+  if (num_lines_ > kMostLoggedLines) return lines;
+  for (const std::filesystem::path& file : log_files_in(folder_)) {
+    std::size_t& from = read_bytes_[file];
+    const std::string text = complete_lines(file, from);
+    from += text.size();
+    for (const std::string& line : split(text, '\n')) {
+      if (!line.empty()) lines.push_back(parse_line(file.stem().string(), line, facts));
+    }
+  }
+  num_lines_ += lines.size();
+  if (num_lines_ > kMostLoggedLines) {
+    lines.resize(lines.size() - (num_lines_ - kMostLoggedLines));
+    lines.push_back(further_lines("further lines", folder_));
   }
   return lines;
 }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "hlc_bridge/result/run_record.hpp"
@@ -17,5 +20,20 @@ inline constexpr std::size_t kMostLoggedLines = 5000;
 /// @throws std::runtime_error naming the file that cannot be read
 [[nodiscard]] std::vector<result::LoggedLine> read_logs(const std::filesystem::path& folder,
                                                         const result::RunFacts& facts);
+
+/// The same while the processes write: their new lines, again and again. A line without its end is
+/// left for the next time; lines beyond kMostLoggedLines are left out, and one more states that.
+class GrowingLogs {
+ public:
+  explicit GrowingLogs(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Since the last call, by file. Files that cannot be read have none, for now.
+  [[nodiscard]] std::vector<result::LoggedLine> new_lines(const result::RunFacts& facts);
+
+ private:
+  std::filesystem::path folder_;
+  std::map<std::filesystem::path, std::size_t> read_bytes_;
+  std::size_t num_lines_{};
+};
 
 }  // namespace hlc::record

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
 
+#include "planner/automaton/trim_format.hpp"
 #include "planner/common/csv.hpp"
 #include "planner/common/text_file.hpp"
 
@@ -17,11 +19,52 @@ namespace {
 constexpr std::string_view kHeading =
     "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,cost_m2,"
     "quality,gap_m2,generated,expanded,level,coupled,missing,deviation_m,planning_ns,deadline_"
-    "missed,late_ns,maneuver,subgraph,waits_for,waits_since,response_ns,blocked_by";
+    "missed,late_ns,maneuver,subgraph,waits_for,waits_since,response_ns,blocked_by,plan,"
+    "held_route,held_place_m,held_ahead_m";
+
+constexpr char kEscape = '\\';
+
+/// "5:J2;7:J1": trims from 1, labels in which ; and \ follow a \.
+std::string plan_text(const std::vector<coordination::PlannedManeuver>& plan) {
+  std::string text;
+  for (const auto& [to, label] : plan) {
+    if (!text.empty()) text += ';';
+    text += fmt::format("{}:", to);
+    for (const char letter : label) {
+      if (letter == ';' || letter == kEscape) text += kEscape;
+      text += letter;
+    }
+  }
+  return text;
+}
+
+/// Nothing: no such text.
+std::optional<std::vector<coordination::PlannedManeuver>> plan_from(std::string_view text) {
+  std::vector<coordination::PlannedManeuver> plan;
+  while (!text.empty()) {
+    std::size_t trim = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, trim);
+    if (error != std::errc{} || trim == 0 || rest == end || *rest != ':') return std::nullopt;
+    coordination::PlannedManeuver& maneuver = plan.emplace_back();
+    maneuver.to = TrimId{trim - 1};
+    text.remove_prefix(static_cast<std::size_t>(rest + 1 - text.data()));
+    std::size_t i = 0;
+    for (; i < text.size() && text[i] != ';'; ++i) {
+      if (text[i] == kEscape) ++i;
+      if (i < text.size()) maneuver.label += text[i];
+    }
+    text.remove_prefix(std::min(text.size(), i + 1));
+  }
+  return plan;
+}
 
 std::string line(const ReportRecord& record) {
   const coordination::Report& report = record.report;
   const Pose& pose = report.planned_pose;
+  const auto held = [&report](auto coordination::HeldRoad::*value) {
+    return report.held ? std::optional(*report.held.*value) : std::nullopt;
+  };
   return CsvLine(report.step.value, report.vehicle.value, coordination::to_string(report.status),
                  coordination::to_string(report.reason), pose.x_m, pose.y_m, pose.heading_rad,
                  report.planned_trim.index + 1, report.cost_m2,
@@ -30,7 +73,9 @@ std::string line(const ReportRecord& record) {
                  ids_to_text(report.missing), report.deviation_m, record.planning_ns,
                  record.deadline_missed, record.late_ns, report.maneuver, report.subgraph,
                  ids_to_text(report.waiting.vehicles), report.waiting.since.value,
-                 record.response_ns, ids_to_text(report.blocked_by))
+                 record.response_ns, ids_to_text(report.blocked_by), plan_text(report.plan),
+                 held(&coordination::HeldRoad::route), held(&coordination::HeldRoad::place_m),
+                 held(&coordination::HeldRoad::ahead_m))
       .text();
 }
 
@@ -97,6 +142,23 @@ class RowReader {
     return ids;
   }
 
+  std::vector<coordination::PlannedManeuver> plan() {
+    auto plan = plan_from(table_.text(row_, column_));
+    if (!plan) table_.refuse(row_, column_, "TRIM:LABEL, several separated by ;");
+    ++column_;
+    return *std::move(plan);
+  }
+  /// Of three columns, empty if there is none.
+  std::optional<coordination::HeldRoad> held() {
+    if (table_.text(row_, column_).empty()) {
+      column_ += 3;
+      return std::nullopt;
+    }
+    const auto route = static_cast<std::uint32_t>(whole(0, ~std::uint32_t{0}));
+    const double place_m = number();
+    return coordination::HeldRoad{route, place_m, number()};
+  }
+
  private:
   const CsvTable& table_;
   std::size_t row_;
@@ -132,6 +194,8 @@ ReportRecord read_row(RowReader row) {
   report.waiting.since = StepIndex{row.whole(0, report.step.value)};
   record.response_ns = row.whole();
   report.blocked_by = row.ids();
+  report.plan = row.plan();
+  report.held = row.held();
   return record;
 }
 

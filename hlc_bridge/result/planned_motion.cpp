@@ -35,6 +35,20 @@ const automaton::Maneuver* maneuver_during(const StepRecord& row, const StepReco
   return automaton.find(report.planned_trim, to, report.maneuver);
 }
 
+std::vector<const automaton::Maneuver*> planned_maneuvers(
+    const coordination::Report& report, const automaton::UniversalAutomaton& automaton) {
+  std::vector<const automaton::Maneuver*> maneuvers;
+  TrimId from = report.planned_trim;
+  for (const auto& [to, label] : report.plan) {
+    if (label == automaton::kSelfLoopLabel) from = to;  // see maneuver_during
+    const automaton::Maneuver* const maneuver = automaton.find(from, to, label);
+    if (maneuver == nullptr) break;
+    maneuvers.push_back(maneuver);
+    from = to;
+  }
+  return maneuvers;
+}
+
 std::vector<vehicle::State> planned_motion(std::span<const StepRecord* const> rows,
                                            Nanoseconds period, Nanoseconds interval,
                                            const automaton::UniversalAutomaton& automaton) {

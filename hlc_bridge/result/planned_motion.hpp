@@ -18,6 +18,11 @@ namespace hlc::result {
 [[nodiscard]] const automaton::Maneuver* maneuver_during(
     const StepRecord& row, const StepRecord* next, const automaton::UniversalAutomaton& automaton);
 
+/// The maneuvers of the report's plan, from t(k) on, as far as the automaton holds them: plans on
+/// new weights (weight_design.hpp) have others.
+[[nodiscard]] std::vector<const automaton::Maneuver*> planned_maneuvers(
+    const coordination::Report& report, const automaton::UniversalAutomaton& automaton);
+
 /// The planned states of one vehicle every `interval`, from t(0) of the run to the time of its last
 /// row. At t(k) that is the reported state; in between, the motion that ends where the plan is at
 /// t(k + 1). So a plan that its controller re-anchors in step k at the car's real pose

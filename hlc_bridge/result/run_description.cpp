@@ -27,6 +27,7 @@ RunDescription describe(const scenario::Scenario& scenario,
   description.step_s = automaton.step_s;
   if (scenario.lab) description.tracking_error_max_m = scenario.lab->tracking_error_max_m;
   description.automaton = scenario.subgraph;
+  description.conflicts = scenario.conflicts;
   for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     description.vehicles.push_back(
         {vehicle.id, vehicle.name, vehicle.path, automaton.vehicle.footprint});

@@ -12,6 +12,7 @@
 #include "planner/automaton/subgraph.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/policy/policy_settings.hpp"
+#include "planner/right_of_way/conflict_map.hpp"
 #include "planner/road/reference_path.hpp"
 
 /// The records of a run as plain data; `hlc_bridge/record` reads and writes the files.
@@ -42,6 +43,8 @@ struct RunDescription {
   /// The automaton of the plans: gives the planned poses between steps. None: only those at the
   /// steps.
   std::shared_ptr<const automaton::Subgraph> automaton;
+  /// Of the routes of coordination::HeldRoad. None: no right of way.
+  std::shared_ptr<const right_of_way::ConflictMap> conflicts;
 };
 
 /// How the run went, as observed by the lab control.

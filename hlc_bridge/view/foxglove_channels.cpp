@@ -2,7 +2,6 @@
 
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -47,13 +46,10 @@ Frames cars(const FinishedRun& run, const Scene& scene) {
 Frames plans(const FinishedRun& run, const Scene& scene, Nanoseconds begin) {
   Frames frames;
   for (const result::VehicleDescription* vehicle : scene.vehicles()) {
-    std::vector<const result::StepRecord*> rows;
     for (const result::StepRecord& row : run.rows) {
-      if (row.record.report.vehicle == vehicle->id) rows.push_back(&row);
-    }
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Nanoseconds time = begin + rows[i]->step * run.facts.period;
-      frame_at(time, frames).push_back(scene.plan(*vehicle, std::span(rows).subspan(i), time));
+      if (row.record.report.vehicle != vehicle->id) continue;
+      const Nanoseconds time = begin + row.step * run.facts.period;
+      frame_at(time, frames).push_back(scene.plan(*vehicle, row.record.report, time));
     }
   }
   return frames;

@@ -1,6 +1,7 @@
 #include "hlc_bridge/view/live_messages.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "hlc_bridge/view/page_parts.hpp"
@@ -26,8 +27,7 @@ std::vector<result::DrivenSample> on_grid(const std::vector<result::DrivenSample
 
 }  // namespace
 
-LiveMessages::LiveMessages(FinishedRun run)
-    : run_(std::move(run)), steps_(run_.description.automaton) {
+LiveMessages::LiveMessages(FinishedRun run) : run_(std::move(run)), steps_(run_.description) {
   for (const std::uint8_t id : run_.facts.vehicle_ids) vehicles_[id];
 }
 
@@ -53,6 +53,10 @@ void LiveMessages::take(const VehicleState& state) {
   samples.push_back({.t = state.create_stamp, .pose = state.pose, .speed_mps = state.speed_mps});
 }
 
+void LiveMessages::take(std::vector<result::LoggedLine> lines) {
+  std::ranges::move(lines, std::back_inserter(run_.log));
+}
+
 bool LiveMessages::has_begun() {
   if (run_.facts.first_step) return true;
   std::optional<std::uint64_t> first;
@@ -68,34 +72,32 @@ bool LiveMessages::has_begun() {
 }
 
 std::string LiveMessages::portion() {
-  const Json messages = new_messages(false);
+  const Json messages = new_messages();
   return messages.empty() ? std::string{} : text_of(messages);
 }
 
 std::string LiveMessages::last_portion(const std::string& reason) {
   portions_waited_ = kPatience;
-  Json messages = new_messages(true);
+  Json messages = new_messages();
   messages.push_back({{"kind", "end"}, {"reason", reason}});
   return text_of(messages);
 }
 
-Json LiveMessages::new_messages(bool all) {
+Json LiveMessages::new_messages() {
   Json messages = Json::array();
   if (!std::exchange(has_sent_run_, true)) messages.push_back(run_message(run_));
+  if (!run_.log.empty()) messages.push_back(log_message(std::exchange(run_.log, {})));
   if (!has_begun()) return messages;
   Json steps = Json::array();
   for (auto& [id, vehicle] : vehicles_) {
-    const std::size_t count = vehicle.rows.size() - (all || vehicle.rows.empty() ? 0 : 1);
-    if (count == 0) continue;
+    if (vehicle.rows.empty()) continue;
     std::vector<const result::StepRecord*> rows;
     for (result::StepRecord& row : vehicle.rows) {
       row.step = row.record.report.step.value - *run_.facts.first_step;
       rows.push_back(&row);
     }
-    const result::StepRecord* next = count < rows.size() ? rows[count] : nullptr;
-    steps.push_back(steps_.of(VehicleId{id}, std::span(rows).first(count), next));
-    vehicle.rows.erase(vehicle.rows.begin(),
-                       vehicle.rows.begin() + static_cast<std::ptrdiff_t>(count));
+    steps.push_back(steps_.of(VehicleId{id}, rows));
+    vehicle.rows.clear();
   }
   if (Json maneuvers = steps_.new_maneuvers(); !maneuvers.at("maneuvers").empty()) {
     messages.push_back(std::move(maneuvers));

@@ -15,7 +15,6 @@ namespace hlc::view {
 ///
 /// * `end`: the run has ended, with `reason` for the operator; the last message.
 ///
-/// A report is sent when the vehicle's next one has arrived, which shows what is driven in between.
 /// States are moved to the closest multiple of 20 ms from t(0) on. A state that follows the one
 /// before it, after a step at most, is sent with that one: so the page can connect them.
 ///
@@ -28,6 +27,7 @@ class LiveMessages {
 
   void take(const ReportRecord& record);
   void take(const VehicleState& state);
+  void take(std::vector<result::LoggedLine> lines);
 
   /// Messages about what was taken since the last portion, as one JSON array; empty: there is
   /// nothing. The first portion has the message `run`.
@@ -36,10 +36,13 @@ class LiveMessages {
   /// after the other: so it is determined when all cars have reported, or kPatience portions after
   /// the first of them.
   [[nodiscard]] std::string portion();
-  /// With the reports that have no next one, and `end`.
+  /// With `end`.
   [[nodiscard]] std::string last_portion(const std::string& reason);
 
   static constexpr int kPatience = 10;
+
+  /// With the first step, once it is known.
+  [[nodiscard]] const result::RunFacts& facts() const { return run_.facts; }
 
  private:
   struct Vehicle {
@@ -50,11 +53,10 @@ class LiveMessages {
   };
 
   [[nodiscard]] bool has_begun();
-  /// @param all  with the last row of every vehicle
-  [[nodiscard]] Json new_messages(bool all);
+  [[nodiscard]] Json new_messages();
   void add_drives(std::uint8_t id, Vehicle& vehicle, Json& messages) const;
 
-  FinishedRun run_;
+  FinishedRun run_;  ///< `log`: lines not yet sent
   StepMessages steps_;
   std::map<std::uint8_t, Vehicle> vehicles_;
   bool has_sent_run_{};

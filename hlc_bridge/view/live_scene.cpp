@@ -1,7 +1,6 @@
 #include "hlc_bridge/view/live_scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace hlc::view {
@@ -80,11 +79,10 @@ LiveScene::Vehicle* LiveScene::find(std::uint8_t id) {
 
 void LiveScene::take(const ReportRecord& record) {
   Vehicle* const vehicle = find(record.report.vehicle.value);
-  const std::uint64_t step = record.report.step.value;
-  if (vehicle == nullptr || (vehicle->row && vehicle->row->step >= step)) return;
-  vehicle->row_before =
-      std::exchange(vehicle->row, result::StepRecord{.step = step, .record = record, .driven = {}});
-  vehicle->has_new_row = true;
+  const StepIndex step = record.report.step;
+  if (vehicle == nullptr || (vehicle->last_step && step <= *vehicle->last_step)) return;
+  vehicle->last_step = step;
+  vehicle->report = record;
 }
 
 void LiveScene::take(const VehicleState& state) {
@@ -108,13 +106,12 @@ void LiveScene::add_steps(std::vector<SceneMessage>& messages) {
   Json reports = Json::array();
   Nanoseconds newest = 0;
   for (auto& [id, vehicle] : vehicles_) {
-    if (!std::exchange(vehicle.has_new_row, false)) continue;
-    const Nanoseconds time = vehicle.row->step * run_.facts.period;
+    const std::optional<ReportRecord> record = std::exchange(vehicle.report, std::nullopt);
+    if (!record) continue;
+    const Nanoseconds time = record->report.step.value * run_.facts.period;
     newest = std::max(newest, time);
-    reports.push_back(report_json(vehicle.row->record));
-    if (!vehicle.row_before) continue;
-    const std::array<const result::StepRecord*, 2> rows{&*vehicle.row_before, &*vehicle.row};
-    plans.push_back(scene_.plan(*vehicle.description, rows, time));
+    reports.push_back(report_json(*record));
+    plans.push_back(scene_.plan(*vehicle.description, record->report, time));
   }
   if (!plans.empty()) messages.push_back({kPlans, newest, scene_update(std::move(plans))});
   if (!reports.empty()) {

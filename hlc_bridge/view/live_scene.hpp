@@ -26,8 +26,7 @@ struct SceneMessage {
 };
 
 /// A run under way as a scene, for viewers that draw it by themselves (scene.hpp): `scene/map`
-/// once, then `scene/cars` and `scene/plans`, and `report` with what a controller did in a step. A
-/// plan is a step behind, because the next report shows what is driven.
+/// once, then `scene/cars` and `scene/plans`, and `reports` with what controllers did in a step.
 ///
 /// Plain data: the caller takes messages from DDS, and updates by its clock.
 class LiveScene {
@@ -49,10 +48,9 @@ class LiveScene {
   /// often.
   struct Vehicle {
     const result::VehicleDescription* description{};
-    std::optional<VehicleState> state;      ///< not yet sent
-    std::optional<result::StepRecord> row;  ///< the last one
-    std::optional<result::StepRecord> row_before;
-    bool has_new_row{};
+    std::optional<VehicleState> state;   ///< not yet sent
+    std::optional<ReportRecord> report;  ///< not yet sent
+    std::optional<StepIndex> last_step;  ///< of the reports taken
   };
 
   [[nodiscard]] Vehicle* find(std::uint8_t id);

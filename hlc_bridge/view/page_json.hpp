@@ -34,6 +34,24 @@ class Differences {
   std::int64_t last_{};
 };
 
+/// Columns x, y and yaw.
+class Poses {
+ public:
+  void add(const Pose& pose) {
+    x_.add(pose.x_m, kUnit_m);
+    y_.add(pose.y_m, kUnit_m);
+    yaw_.add(pose.heading_rad, kUnit_rad);
+  }
+  [[nodiscard]] Json json() const {
+    return {{"x", x_.json()}, {"y", y_.json()}, {"yaw", yaw_.json()}};
+  }
+
+ private:
+  Differences x_;
+  Differences y_;
+  Differences yaw_;
+};
+
 /// x and y in turn.
 template <class Points>
 [[nodiscard]] Json line_json(const Points& points_m) {

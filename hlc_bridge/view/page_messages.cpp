@@ -22,12 +22,12 @@ std::vector<const result::StepRecord*> rows_of(VehicleId vehicle, const Finished
 
 /// Messages `maneuvers` and, per vehicle that reported, `steps`.
 void add_steps(const FinishedRun& run, Json& messages) {
-  StepMessages encoder(run.description.automaton);
+  StepMessages encoder(run.description);
   Json steps = Json::array();
   for (const result::VehicleDescription& vehicle : run.description.vehicles) {
     const std::vector<const result::StepRecord*> rows = rows_of(vehicle.id, run);
     if (rows.empty() || !takes_part(vehicle.id, run.facts)) continue;
-    steps.push_back(encoder.of(vehicle.id, rows, nullptr));
+    steps.push_back(encoder.of(vehicle.id, rows));
   }
   messages.push_back(encoder.new_maneuvers());
   for (Json& message : steps) messages.push_back(std::move(message));
@@ -55,25 +55,13 @@ void add_drives(const FinishedRun& run, Json& messages) {
   }
 }
 
-Json log_json(const std::vector<result::LoggedLine>& log) {
-  Json lines = Json::array();
-  for (const result::LoggedLine& line : log) {
-    lines.push_back({{"process", line.process},
-                     {"stamp", line.stamp},
-                     {"level", line.level},
-                     {"text", line.text},
-                     {"run_s", line.run_s ? Json(*line.run_s) : Json(nullptr)}});
-  }
-  return {{"kind", "log"}, {"lines", std::move(lines)}};
-}
-
 }  // namespace
 
 std::string page_messages(const FinishedRun& run) {
   Json messages = Json::array({run_message(run)});
   add_steps(run, messages);
   add_drives(run, messages);
-  messages.push_back(log_json(run.log));
+  messages.push_back(log_message(run.log));
   return text_of(messages);
 }
 

@@ -1,6 +1,7 @@
 #include "hlc_bridge/view/scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -25,14 +26,14 @@ struct Rgb {
 
 constexpr Rgb kBound{0.5, 0.5, 0.5};
 /// Of the vehicles, those of Okabe and Ito as in page/page.css.
-constexpr std::array<Rgb, 8> kCars{{{0.835, 0.369, 0.0},
-                                    {0.0, 0.447, 0.698},
-                                    {0.0, 0.620, 0.451},
-                                    {0.800, 0.475, 0.655},
-                                    {0.902, 0.624, 0.0},
-                                    {0.337, 0.706, 0.914},
-                                    {0.702, 0.643, 0.0},
-                                    {0.439, 0.439, 0.439}}};
+constexpr std::array<Rgb, kNumColours> kCars{{{0.835, 0.369, 0.0},
+                                              {0.0, 0.447, 0.698},
+                                              {0.0, 0.620, 0.451},
+                                              {0.800, 0.475, 0.655},
+                                              {0.902, 0.624, 0.0},
+                                              {0.337, 0.706, 0.914},
+                                              {0.702, 0.643, 0.0},
+                                              {0.439, 0.439, 0.439}}};
 
 double finite(double value) { return std::isfinite(value) ? value : 0.0; }
 
@@ -100,16 +101,14 @@ std::string scene_update(Json entities) {
   return text_of({{"deletions", Json::array()}, {"entities", std::move(entities)}});
 }
 
-Scene::Scene(const FinishedRun& run) : run_(&run) {
+Scene::Scene(const FinishedRun& run) : run_(&run), colors_(colours_of(run)) {
   for (const result::VehicleDescription& vehicle : run.description.vehicles) {
-    if (!takes_part(vehicle.id, run.facts)) continue;
-    colors_[vehicle.id.value] = colors_.size() % kCars.size();
-    vehicles_.push_back(&vehicle);
+    if (takes_part(vehicle.id, run.facts)) vehicles_.push_back(&vehicle);
   }
 }
 
 Json Scene::color_of(const result::VehicleDescription& vehicle, double alpha) const {
-  return color_json(kCars.at(colors_.at(vehicle.id.value)), alpha);
+  return color_json(kCars.at(colors_.at(vehicle.id)), alpha);
 }
 
 Json Scene::map(Nanoseconds time) const {
@@ -152,29 +151,29 @@ Json Scene::car(const result::VehicleDescription& vehicle, const Pose& pose,
   return entity;
 }
 
-Json Scene::plan(const result::VehicleDescription& vehicle,
-                 std::span<const result::StepRecord* const> rows, Nanoseconds time) const {
+Json Scene::plan(const result::VehicleDescription& vehicle, const coordination::Report& report,
+                 Nanoseconds time) const {
   const Json color = color_of(vehicle, 0.8);
-  const result::StepRecord& row = *rows.front();
-  std::vector<Point> path_m;
-  for (const result::StepRecord* later :
-       rows.first(std::min(rows.size(), run_->description.horizon_steps + 1))) {
-    path_m.push_back(later->record.report.planned_pose.position_m());
-  }
   Json entity = entity_json(fmt::format("plan {}", vehicle.id.value), time);
-  entity["metadata"].push_back(
-      {{"key", "status"}, {"value", coordination::to_string(row.record.report.status)}});
-  entity["lines"].push_back(lines_json(kLineStrip, path_m, kPlan_m, 0.01, color));
-  const automaton::Maneuver* const maneuver =
-      run_->description.automaton
-          ? result::maneuver_during(row, rows.size() > 1 ? rows[1] : nullptr,
-                                    run_->description.automaton->automaton())
-          : nullptr;
-  if (maneuver != nullptr) {
-    const ConvexPolygon area_m =
-        transformed(maneuver->swept_area_m, row.record.report.planned_pose);
-    entity["lines"].push_back(lines_json(kLineLoop, area_m.vertices_m, kPlan_m, 0.004, color));
+  const auto note = [&entity](const char* key, const std::string& value) {
+    entity["metadata"].push_back({{"key", key}, {"value", value}});
+  };
+  note("status", coordination::to_string(report.status));
+  std::vector<std::string> labels;
+  for (const auto& [to, label] : report.plan) labels.push_back(label);
+  note("maneuvers", fmt::format("{}", fmt::join(labels, ", ")));
+  std::vector<Point> path_m{report.planned_pose.position_m()};
+  if (run_->description.automaton) {
+    const automaton::UniversalAutomaton& automaton = run_->description.automaton->automaton();
+    Pose frame = report.planned_pose;
+    for (const automaton::Maneuver* maneuver : result::planned_maneuvers(report, automaton)) {
+      const ConvexPolygon area_m = transformed(maneuver->swept_area_m, frame);
+      entity["lines"].push_back(lines_json(kLineLoop, area_m.vertices_m, kPlan_m, 0.004, color));
+      frame = compose(frame, maneuver->displacement);
+      path_m.push_back(frame.position_m());
+    }
   }
+  entity["lines"].push_back(lines_json(kLineStrip, path_m, kPlan_m, 0.01, color));
   return entity;
 }
 

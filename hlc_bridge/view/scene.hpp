@@ -31,19 +31,17 @@ class Scene {
   /// Footprint and number.
   [[nodiscard]] Json car(const result::VehicleDescription& vehicle, const Pose& pose,
                          Nanoseconds time) const;
-  /// Planned path from the step of the first row on, area of the maneuver under way in it, and the
-  /// step's status.
-  /// @param rows  of the vehicle, by step; the second one shows what is driven in the first
-  /// @pre rows is not empty
+  /// The report's plan as far as its maneuvers are known: path, areas, and as metadata the step's
+  /// status and the labels.
   [[nodiscard]] Json plan(const result::VehicleDescription& vehicle,
-                          std::span<const result::StepRecord* const> rows, Nanoseconds time) const;
+                          const coordination::Report& report, Nanoseconds time) const;
 
  private:
   [[nodiscard]] Json color_of(const result::VehicleDescription& vehicle, double alpha) const;
 
   const FinishedRun* run_;
   std::vector<const result::VehicleDescription*> vehicles_;
-  std::map<int, std::size_t> colors_;  ///< numbers, by vehicle
+  std::map<VehicleId, std::size_t> colors_;  ///< numbers
 };
 
 /// A foxglove.SceneUpdate.

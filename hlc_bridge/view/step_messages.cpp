@@ -13,43 +13,43 @@ constexpr double kUnit_m2 = 1e-6;
 constexpr double kUnit_s = 1e-6;  ///< of planning times
 constexpr Nanoseconds kNanosecondsPerMicrosecond = 1'000;
 constexpr std::size_t kPartsOfManeuver = 10;
-constexpr std::size_t kNoManeuver = static_cast<std::size_t>(-1);
 
-using Ids = std::vector<int>;
+using Numbers = std::vector<int>;
 
-Ids numbers_of(const std::vector<VehicleId>& vehicles) {
-  Ids ids;
+Numbers numbers_of(const std::vector<VehicleId>& vehicles) {
+  Numbers ids;
   for (const VehicleId id : vehicles) ids.push_back(id.value);
   return ids;
 }
 
 Json maneuver_json(const automaton::Maneuver& maneuver, const vehicle::VehicleParameters& vehicle) {
-  std::vector<std::int64_t> path;
+  Poses path;
   for (std::size_t i = 0; i <= kPartsOfManeuver; ++i) {
     const double part = static_cast<double>(i) / kPartsOfManeuver;
-    const Pose pose = automaton::state_at(maneuver, part * maneuver.duration_s, vehicle).pose;
-    path.insert(path.end(), {whole(pose.x_m, kUnit_m), whole(pose.y_m, kUnit_m),
-                             whole(pose.heading_rad, kUnit_rad)});
+    path.add(automaton::state_at(maneuver, part * maneuver.duration_s, vehicle).pose);
   }
-  return {{"label", maneuver.label},
-          {"path", std::move(path)},
-          {"area", line_json(maneuver.swept_area_m.vertices_m)}};
+  Json json = path.json();
+  json["label"] = maneuver.label;
+  json["area"] = line_json(maneuver.swept_area_m.vertices_m);
+  return json;
 }
 
 /// The reports of one vehicle, column by column.
 class StepColumns {
  public:
-  /// @param maneuver  its number; kNoManeuver: not known
-  void add(const result::StepRecord& row, std::size_t maneuver) {
+  /// @param conflicts  of the routes of held road; nullptr: not known
+  explicit StepColumns(const right_of_way::ConflictMap* conflicts) : conflicts_(conflicts) {}
+
+  /// @param plan  numbers of its maneuvers
+  void add(const result::StepRecord& row, const Numbers& plan) {
     const coordination::Report& report = row.record.report;
     k_.add(static_cast<std::int64_t>(row.step));
-    x_.add(report.planned_pose.x_m, kUnit_m);
-    y_.add(report.planned_pose.y_m, kUnit_m);
-    heading_.add(report.planned_pose.heading_rad, kUnit_rad);
+    poses_.add(report.planned_pose);
     put("status", static_cast<int>(report.status));
     put("reason", static_cast<int>(report.reason));
     put("quality", static_cast<int>(report.quality));
-    put("maneuver", maneuver == kNoManeuver ? Json(-1) : Json(maneuver));
+    put("plan", sets_.number_of(plan));
+    put("held", sets_.number_of(held_cells(report)));
     put("label", names_.number_of(report.maneuver));
     put("subgraph", names_.number_of(report.subgraph));
     put("coupled", sets_.number_of(numbers_of(report.coupled)));
@@ -69,9 +69,16 @@ class StepColumns {
   }
 
   [[nodiscard]] Json json(VehicleId vehicle) const {
-    Json json{{"kind", "steps"},        {"vehicle", vehicle.value}, {"k", k_.json()},
-              {"x", x_.json()},         {"y", y_.json()},           {"heading", heading_.json()},
-              {"sets", sets_.values()}, {"names", names_.values()}};
+    Json json = poses_.json();
+    json["kind"] = "steps";
+    json["vehicle"] = vehicle.value;
+    json["k"] = k_.json();
+    json["sets"] = sets_.values();
+    json["names"] = names_.values();
+    json["tables"] = {{"status", "statuses"}, {"reason", "reasons"}, {"quality", "qualities"},
+                      {"label", "names"},     {"subgraph", "names"}, {"coupled", "sets"},
+                      {"missing", "sets"},    {"waits_for", "sets"}, {"blocked_by", "sets"},
+                      {"plan", "sets"},       {"held", "sets"}};
     json["units"] = {{"cost_m2", kUnit_m2},
                      {"gap_m2", kUnit_m2},
                      {"deviation_m", kUnit_m},
@@ -82,27 +89,40 @@ class StepColumns {
   }
 
  private:
+  /// Route, first cell, and their number; empty: none.
+  [[nodiscard]] Numbers held_cells(const coordination::Report& report) const {
+    const bool is_known =
+        conflicts_ != nullptr && report.held && report.held->route < conflicts_->num_routes();
+    if (!is_known) return {};
+    const auto& [route, place_m, ahead_m] = *report.held;
+    const std::int64_t first = conflicts_->count_at(route, place_m);
+    const std::int64_t last = conflicts_->count_at(route, place_m + ahead_m);
+    return {static_cast<int>(route), static_cast<int>(conflicts_->index_of(route, first)),
+            static_cast<int>(last - first + 1)};
+  }
   void put(const char* name, Json value) { columns_[name].push_back(std::move(value)); }
 
   Differences k_;
-  Differences x_;
-  Differences y_;
-  Differences heading_;
+  Poses poses_;
   Table<std::string> names_;
-  Table<Ids> sets_;
+  const right_of_way::ConflictMap* conflicts_;
+  Table<Numbers> sets_;
   std::map<std::string, Json> columns_;
 };
 
 }  // namespace
 
-Json StepMessages::of(VehicleId vehicle, std::span<const result::StepRecord* const> rows,
-                      const result::StepRecord* next) {
-  StepColumns columns;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const result::StepRecord* after = i + 1 < rows.size() ? rows[i + 1] : next;
-    const automaton::Maneuver* maneuver =
-        subgraph_ ? result::maneuver_during(*rows[i], after, subgraph_->automaton()) : nullptr;
-    columns.add(*rows[i], maneuver != nullptr ? maneuvers_.number_of(maneuver) : kNoManeuver);
+Json StepMessages::of(VehicleId vehicle, std::span<const result::StepRecord* const> rows) {
+  StepColumns columns(conflicts_.get());
+  for (const result::StepRecord* row : rows) {
+    Numbers plan;
+    if (subgraph_) {
+      for (const automaton::Maneuver* maneuver :
+           result::planned_maneuvers(row->record.report, subgraph_->automaton())) {
+        plan.push_back(static_cast<int>(maneuvers_.number_of(maneuver)));
+      }
+    }
+    columns.add(*row, plan);
   }
   return columns.json(vehicle);
 }

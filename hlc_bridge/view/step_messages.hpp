@@ -30,21 +30,19 @@ class Table {
 /// The messages `steps` of all vehicles of a run, and `maneuvers` with those that they point to.
 class StepMessages {
  public:
-  /// @param subgraph  its automaton is that of the plans; nullptr: not known
-  explicit StepMessages(std::shared_ptr<const automaton::Subgraph> subgraph)
-      : subgraph_(std::move(subgraph)) {}
+  explicit StepMessages(const result::RunDescription& run)
+      : subgraph_(run.automaton), conflicts_(run.conflicts) {}
 
   /// Message `steps`.
   /// @param rows  of that vehicle, by step
-  /// @param next  its row after them, which shows what is driven in the last of them; nullptr: none
-  [[nodiscard]] Json of(VehicleId vehicle, std::span<const result::StepRecord* const> rows,
-                        const result::StepRecord* next);
+  [[nodiscard]] Json of(VehicleId vehicle, std::span<const result::StepRecord* const> rows);
 
   /// Message `maneuvers`: those that `of` numbered since the last call.
   [[nodiscard]] Json new_maneuvers();
 
  private:
   std::shared_ptr<const automaton::Subgraph> subgraph_;
+  std::shared_ptr<const right_of_way::ConflictMap> conflicts_;
   Table<const automaton::Maneuver*> maneuvers_;
   std::size_t num_sent_{};
 };

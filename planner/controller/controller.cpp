@@ -385,6 +385,11 @@ coordination::Report Controller::finish(bool accepted, coordination::FallbackRea
     report.reason = minimal_risk_stop_ ? coordination::FallbackReason::kNone : reason;
   }
   step_.candidate.plan.reset();
+  report.plan = plan_in_force().maneuvers_from(report.step);
+  if (authority_) {
+    const coordination::LaneClaim& claim = authority_->claim();
+    report.held = {claim.route, claim.place_m, claim.ahead_m};
+  }
   return report;
 }
 

@@ -48,6 +48,15 @@ const automaton::Maneuver& Plan::maneuver_during(StepIndex step) const {
 
 TrimId Plan::trim_at(StepIndex step) const { return maneuver_during(step).from; }
 
+std::vector<PlannedManeuver> Plan::maneuvers_from(StepIndex step) const {
+  std::vector<PlannedManeuver> maneuvers;
+  do {
+    maneuvers.push_back({.to = trim_at({step.value + 1}), .label = maneuver_during(step).label});
+    ++step.value;
+  } while (step < end());
+  return maneuvers;
+}
+
 vehicle::State Plan::state_at(StepIndex step, double time_s,
                               const vehicle::VehicleParameters& vehicle) const {
   vehicle::State state = automaton::state_at(maneuver_during(step), time_s, vehicle);

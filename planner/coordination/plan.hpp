@@ -5,6 +5,7 @@
 
 #include "planner/automaton/subgraph.hpp"
 #include "planner/coordination/messages.hpp"
+#include "planner/coordination/report.hpp"
 
 namespace hlc::coordination {
 
@@ -58,6 +59,8 @@ class Plan {
   [[nodiscard]] TrimId trim_at(StepIndex step) const;
   /// The maneuver driven in [t(step), t(step + 1)].
   [[nodiscard]] const automaton::Maneuver& maneuver_during(StepIndex step) const;
+  /// From t(step) on, until it stands; the first one at least. @pre step >= first()
+  [[nodiscard]] std::vector<PlannedManeuver> maneuvers_from(StepIndex step) const;
   /// Planned state at t(step) + time_s, 0 <= time_s <= one step. @pre step >= first()
   [[nodiscard]] vehicle::State state_at(StepIndex step, double time_s,
                                         const vehicle::VehicleParameters& vehicle) const;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +55,21 @@ enum class PlanQuality : std::uint8_t {
 /// "vehicle 3", "vehicles 3, 5".
 [[nodiscard]] std::string vehicles_text(const std::vector<VehicleId>& vehicles);
 
+/// Part of a plan: the maneuver (or self-loop) of one step.
+struct PlannedManeuver {
+  TrimId to;  ///< trim in which it ends
+  std::string label;
+  friend bool operator==(const PlannedManeuver&, const PlannedManeuver&) = default;
+};
+
+/// Road that a vehicle holds with right of way (LaneClaim), as a step ends.
+struct HeldRoad {
+  std::uint32_t route{};  ///< index in the run's conflict map
+  double place_m{};       ///< arc length of the planned place at t(k)
+  double ahead_m{};       ///< from there to the end of its authority
+  friend bool operator==(const HeldRoad&, const HeldRoad&) = default;
+};
+
 /// Result of one step of one vehicle. Nothing in it depends on a clock.
 struct Report {
   VehicleId vehicle;
@@ -84,6 +101,9 @@ struct Report {
   /// Vehicles that kept the new plan from coming into force (planner/controller/blocked_by.hpp),
   /// sorted; empty: none, or it was for the vehicle's own reasons.
   std::vector<VehicleId> blocked_by;
+  /// Plan::maneuvers_from(k) of the plan in force as the step ends; empty: there is none.
+  std::vector<PlannedManeuver> plan;
+  std::optional<HeldRoad> held;  ///< none: no right of way, or no plan
 };
 
 }  // namespace hlc::coordination

@@ -64,6 +64,10 @@ class ConflictMap {
   [[nodiscard]] const ConvexPolygon& area_m(std::size_t route, std::size_t cell) const {
     return cells_[routes_[route][cell]].area_m;
   }
+  /// Middle of a vehicle that is in the cell.
+  [[nodiscard]] Point place_m(std::size_t route, std::size_t cell) const {
+    return cells_[routes_[route][cell]].pose.position_m();
+  }
   [[nodiscard]] bool is_conflict(std::size_t route, std::size_t cell) const {
     return cells_[routes_[route][cell]].is_conflict;
   }

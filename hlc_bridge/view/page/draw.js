@@ -50,6 +50,15 @@ export class MapView {
     this.lanes = run.lanes.map(area);
     this.bounds = run.lanes.flat().map((bound) => path_through(bound));
     this.routes = new Map(run.vehicles.map((v) => [v.id, path_through(v.route, v.closed)]));
+    this.zones = new Path2D();
+    this.zone_places = {};
+    for (const { places, zones } of run.roads) {
+      zones.forEach((zone, i) => {
+        if (!zone) return;
+        (this.zone_places[zone] ??= []).push(places[i]);
+        this.zones.addPath(path_through([places[i], places[(i + 1) % places.length]]));
+      });
+    }
     if (this.is_fitted) this.fit();
   }
 
@@ -111,7 +120,6 @@ export class MapView {
   }
 
   /// @param name  of the colour
-  /// @param dashes  in px
   stroke(path, name, width_px, dashes = [], opacity = 1) {
     const { context, scale } = this;
     const lineWidth = width_px / scale;
@@ -125,7 +133,6 @@ export class MapView {
     this.context.fill(path);
   }
 
-  /// @param shown  of Page
   draw(shown) {
     const { context, run } = this;
     if (this.is_fitted) this.fit();
@@ -138,6 +145,7 @@ export class MapView {
     context.transform(this.scale, 0, 0, -this.scale, ...this.to_canvas([0, 0])); // in the world
     for (const lane of this.lanes) this.fill(lane, "lane");
     for (const bound of this.bounds) this.stroke(bound, "bound", 1);
+    if (shown.layers.zones) this.stroke(this.zones, "muted", 0.1 * this.scale, [], 0.3);
     for (const vehicle of run.vehicles) this.draw_paths(vehicle, shown);
     for (const vehicle of run.vehicles) this.draw_car(vehicle, shown);
     for (const vehicle of run.vehicles) this.draw_waiting(vehicle, shown.t);
@@ -154,21 +162,25 @@ export class MapView {
     if (layers.reference) {
       this.stroke(this.routes.get(vehicle.id), fill, is_selected ? 2 : 1, [2, 4], 0.8 * fade);
     }
-    const area = layers.areas && run.area_in(vehicle, k);
-    if (area) {
-      const outline = path_through(area, true);
-      this.fill(outline, fill, 0.22);
-      this.stroke(outline, fill, 1, [], 0.7);
+    if (layers.zones) {
+      const { places } = run.held_in(vehicle, k);
+      this.stroke(path_through(places), fill, 0.08 * this.scale, [], 0.5 * fade);
     }
+    const { path, areas } = run.plan_points(vehicle, k);
+    if (layers.areas) areas.forEach((area, i) => {
+      const outline = path_through(area, true);
+      if (i === 0) this.fill(outline, fill, 0.22);
+      this.stroke(outline, fill, 1, [], i === 0 ? 0.7 : 0.4 * fade);
+    });
     if (layers.driven) {
       const from_s = is_selected ? 0 : t - kTrail_s;
       const width_px = is_selected ? 2 : 3;
       this.stroke(path_through(run.driven_path(vehicle, from_s, t)), fill, width_px, [], fade);
     }
     if (layers.planned) {
-      const path = path_through(run.planned_path(vehicle, k, k + 1 + run.about.horizon_steps));
-      this.stroke(path, "ground", 5, [], 0.7 * fade);
-      this.stroke(path, fill, 3, [7, 4], fade);
+      const line = path_through(path);
+      this.stroke(line, "ground", 5, [], 0.7 * fade);
+      this.stroke(line, fill, 3, [7, 4], fade);
     }
   }
 
@@ -221,6 +233,10 @@ export class MapView {
   /// The cars' numbers on them, and the states of those that do not just drive.
   draw_labels({ t, selected, layers }) {
     Object.assign(this.context, { textAlign: "center", textBaseline: "middle" });
+    for (const [zone, places] of Object.entries(layers.zones ? this.zone_places : {})) {
+      const [x, y] = [0, 1].map((i) => places.reduce((sum, p) => sum + p[i], 0) / places.length);
+      this.text(`zone ${zone}`, ...this.to_canvas([x, y]), 11, "muted");
+    }
     const [labels, taken] = [[], []]; // taken: places of numbers and labels
     for (const vehicle of this.run.vehicles) {
       const pose = this.place(vehicle, t);

@@ -3,7 +3,7 @@
 import { Run } from "./model.js";
 import { MapView } from "./draw.js";
 import { TimeLine } from "./timeline.js";
-import { CarList, Log, Report, fault_words, run_words } from "./panel.js";
+import { CarList, Log, Report } from "./panel.js";
 import { Player, listen_to_keys, listen_to_pointers, listen_to_scrubbing } from "./controls.js";
 
 export const by_id = (id) => document.getElementById(id);
@@ -13,6 +13,7 @@ const kDark = matchMedia("(prefers-color-scheme: dark)");
 class Page {
   constructor(run) {
     this.run = run;
+    by_id("zones").parentElement.hidden = run.roads.length === 0;
     this.selected = null;
     this.map = new MapView(by_id("map"));
     this.time_line = new TimeLine(by_id("time_line"));
@@ -38,7 +39,7 @@ class Page {
     return by_id("follow").checked;
   }
 
-  /// {t, selected: id or null, follow, layers: {reference, planned, driven, areas, labels}}
+  /// {t, selected: id or null, follow, layers: {reference, planned, driven, areas, labels, zones}}
   get shown() {
     const boxes = [...document.querySelectorAll("#layers input")];
     const layers = Object.fromEntries(boxes.map(({ id, checked }) => [id, checked]));
@@ -204,7 +205,6 @@ export function report(text) {
   by_id("fault").textContent = text;
 }
 
-/// @throws error
 export function refuse_run(error) {
   report(`This run cannot be shown: ${error.message}`);
   throw error;
@@ -213,8 +213,8 @@ export function refuse_run(error) {
 export function show_run(run) {
   root.dataset.theme = kDark.matches ? "dark" : "light";
   document.title = by_id("title").textContent = `Run of ${run.about.scenario}`;
-  by_id("about").textContent = run_words(run.about);
-  report(fault_words(run.about));
+  by_id("about").textContent = run.about.about;
+  report(run.about.fault);
   return (window.page = new Page(run));
 }
 

@@ -1,9 +1,7 @@
 // The run as the page knows it, and questions about it at any time. Data arrives through
 // Run.take(), as messages that hlc_bridge/view/page_messages.hpp specifies.
 
-const kFormat = 1;
-const kNumColours = 8; // of the style sheet, for cars
-const kNamedColours = { red: 0, blue: 1, green: 2 };
+const kFormat = 2;
 
 export function clamp(value, least, most) {
   return Math.max(least, Math.min(most, value));
@@ -34,12 +32,6 @@ export function point_in(a, [x, y]) {
   return [point.x, point.y];
 }
 
-function inverse(a) {
-  const c = Math.cos(a.yaw);
-  const s = Math.sin(a.yaw);
-  return { x: -c * a.x - s * a.y, y: s * a.x - c * a.y, yaw: -a.yaw };
-}
-
 /// Between two poses, the heading along the shorter arc.
 function between(a, b, part) {
   const turn = Math.atan2(Math.sin(b.yaw - a.yaw), Math.cos(b.yaw - a.yaw));
@@ -52,6 +44,7 @@ export class Run {
     this.lanes = []; // [left, right], points
     this.vehicles = []; // in the order of the run
     this.maneuvers = []; // {label, path: poses, area: points}
+    this.roads = []; // {places: points, zones}, of cells
     this.log = [];
     this.num_steps = 0; // steps reported so far
   }
@@ -75,47 +68,41 @@ export class Run {
     this.unit = message.unit_m;
     this.step_s = message.step_s;
     this.lanes = message.lanes.map((bounds) => bounds.map((bound) => line_of(bound, this.unit)));
-    this.vehicles = message.vehicles.map((vehicle, i) => ({
+    this.roads = (message.roads || []).map(({ places, zones }) => (
+      { places: line_of(places, this.unit), zones: sums(zones, 1) }));
+    this.vehicles = message.vehicles.map((vehicle) => ({
       ...vehicle,
-      colour: kNamedColours[vehicle.name] ?? i % kNumColours,
       route: line_of(vehicle.route, this.unit),
       steps: [], // report of step k at [k], if any; without a label: no plan
+      whys: {}, // explanation of step k at [k]
       drives: [], // stretches without a gap
     }));
   }
 
-  take_maneuvers(message) {
-    for (const { label, path, area } of message.maneuvers) {
-      const poses = [];
-      for (let i = 0; i + 2 < path.length; i += 3) {
-        const [x, y, yaw] = path.slice(i, i + 3);
-        poses.push({ x: x * this.unit, y: y * this.unit, yaw: yaw * this.about.unit_rad });
-      }
-      this.maneuvers.push({ label, path: poses, area: line_of(area, this.unit) });
-    }
+  poses_of({ x: dx, y: dy, yaw: turns }) {
+    const [x, y] = [sums(dx, this.unit), sums(dy, this.unit)];
+    return sums(turns, this.about.unit_rad).map((yaw, i) => ({ x: x[i], y: y[i], yaw }));
+  }
+
+  take_maneuvers({ maneuvers }) {
+    const decode = (one) => (
+      { ...one, path: this.poses_of(one), area: line_of(one.area, this.unit) });
+    this.maneuvers.push(...maneuvers.map(decode));
+  }
+
+  take_why({ vehicle, steps }) {
+    for (const [k, text] of steps) this.vehicle(vehicle).whys[k] = text;
   }
 
   take_steps(message) {
-    const { about, unit } = this;
-    const { names, sets, units, columns } = message;
-    const tables = {
-      status: about.statuses,
-      reason: about.reasons,
-      quality: about.qualities,
-      label: names,
-      subgraph: names,
-      coupled: sets,
-      missing: sets,
-      waits_for: sets,
-      blocked_by: sets,
-    };
-    const [x, y] = [sums(message.x, unit), sums(message.y, unit)];
-    const yaw = sums(message.heading, about.unit_rad);
+    const { units, columns, tables } = message;
+    const poses = this.poses_of(message);
     const vehicle = this.vehicle(message.vehicle);
     sums(message.k, 1).forEach((k, i) => {
-      const report = { k, pose: { x: x[i], y: y[i], yaw: yaw[i] } };
+      const report = { k, pose: poses[i] };
       for (const [name, column] of Object.entries(columns)) {
-        report[name] = tables[name] ? tables[name][column[i]] : column[i] * (units[name] || 1);
+        const table = this.about[tables[name]] || message[tables[name]];
+        report[name] = table ? table[column[i]] : column[i] * (units[name] || 1);
       }
       vehicle.steps[k] = report;
       this.num_steps = Math.max(this.num_steps, k + 1);
@@ -123,13 +110,11 @@ export class Run {
   }
 
   take_drive(message) {
-    const [x, y] = [sums(message.x, this.unit), sums(message.y, this.unit)];
-    const yaw = sums(message.yaw, this.about.unit_rad);
     const speed = sums(message.speed, 1e-3);
     this.vehicle(message.vehicle).drives.push({
       begin_s: message.begin_ms * 1e-3,
       tick_s: message.tick_ms * 1e-3,
-      states: x.map((_, i) => ({ x: x[i], y: y[i], yaw: yaw[i], speed: speed[i] })),
+      states: this.poses_of(message).map((pose, i) => ({ ...pose, speed: speed[i] })),
     });
   }
 
@@ -171,73 +156,61 @@ export class Run {
     });
   }
 
-  /// Frame of the maneuver under way in step k: it ends where the plan is at the next step. null
-  /// without a plan or a known maneuver, or if the plan continues elsewhere, after a deviation.
-  frame_of_maneuver(vehicle, k) {
-    const report = vehicle.steps[k];
-    const next = vehicle.steps[k + 1];
-    const maneuver = this.maneuvers[report?.maneuver];
-    if (!maneuver || !next) return null;
-    const frame = compose(next.pose, inverse(maneuver.path.at(-1)));
-    const apart_m = Math.hypot(frame.x - report.pose.x, frame.y - report.pose.y);
-    return apart_m < 0.05 ? { maneuver, frame } : null;
+  /// Maneuvers of the plan in force, from step k on, as far as they are known: each with its frame.
+  plan_in(vehicle, k) {
+    const { plan = [], pose } = vehicle.steps[k] || {};
+    let frame = pose;
+    return plan.map((number) => {
+      const motion = { ...this.maneuvers[number], frame };
+      frame = compose(frame, motion.path.at(-1));
+      return motion;
+    });
   }
 
-  /// Where the plan in force is at t; null: none, or not known, as within the last step.
+  /// Where the plan in force is at t; null: there is none.
   planned_at(vehicle, t) {
     const k = this.step_at(t);
     const report = vehicle.steps[k];
     if (!report?.label) return null;
     const part = clamp(t / this.step_s - k, 0, 1);
-    const motion = this.frame_of_maneuver(vehicle, k);
+    const [motion] = this.plan_in(vehicle, k);
     if (part < 1e-6) return report.pose;
-    if (motion) {
-      const { path } = motion.maneuver;
-      const at = part * (path.length - 1);
-      const i = Math.min(path.length - 2, Math.floor(at));
-      return compose(motion.frame, between(path[i], path[i + 1], at - i));
-    }
-    const next = !this.maneuvers[report.maneuver] && vehicle.steps[k + 1];
-    return next ? between(report.pose, next.pose, part) : null;
+    if (!motion) return between(report.pose, (vehicle.steps[k + 1] || report).pose, part);
+    const { path, frame } = motion;
+    const at = part * (path.length - 1);
+    const i = Math.min(path.length - 2, Math.floor(at));
+    return compose(frame, between(path[i], path[i + 1], at - i));
   }
 
-  /// Points of the plan during the steps from ... to - 1, as far as it is known.
-  planned_path(vehicle, from, to) {
-    const points = [];
-    for (let k = from; k < to; ++k) {
-      if (!vehicle.steps[k]?.label) continue;
-      const motion = this.frame_of_maneuver(vehicle, k);
-      const poses = motion
-        ? motion.maneuver.path.map((pose) => compose(motion.frame, pose))
-        : [vehicle.steps[k].pose];
-      points.push(...poses.map(({ x, y }) => [x, y]));
-      if (!motion) break;
-    }
-    return points;
+  /// The same in the map, as points: its path and the areas that the car may occupy.
+  plan_points(vehicle, k) {
+    const plan = this.plan_in(vehicle, k);
+    const path = plan.flatMap(({ frame, path }) => path.map(({ x, y }) => point_in(frame, [x, y])));
+    const areas = plan.map(({ frame, area }) => area.map((corner) => point_in(frame, corner)));
+    return { path, areas };
   }
 
-  /// Area that the car may occupy in step k according to its plan; null: not known.
-  area_in(vehicle, k) {
-    const motion = this.frame_of_maneuver(vehicle, k);
-    return motion && motion.maneuver.area.map((corner) => point_in(motion.frame, corner));
+  /// Road that the car holds in step k: its cells' places, conflict zones in it, zone behind its end.
+  held_in(vehicle, k) {
+    const [road, first, count = 0] = vehicle.steps[k]?.held || [];
+    const { places, zones } = this.roads[road] || { places: [], zones: [] };
+    const of = (values, i) => values[(first + i) % values.length];
+    const cells = (values) => Array.from({ length: count }, (_, i) => of(values, i));
+    const held = new Set(cells(zones).filter(Boolean));
+    return { places: cells(places), zones: [...held], next: of(zones, count) };
   }
 
   /// Box of all there is to see.
   box() {
-    const min = [Infinity, Infinity];
-    const max = [-Infinity, -Infinity];
-    const add = (point) => {
-      for (const i of [0, 1]) {
-        min[i] = Math.min(min[i], point[i]);
-        max[i] = Math.max(max[i], point[i]);
-      }
-    };
-    for (const bound of this.lanes.flat()) bound.forEach(add);
+    const points = this.lanes.flat(2);
     for (const vehicle of this.vehicles) {
-      vehicle.route.forEach(add);
-      this.driven_path(vehicle, 0, Infinity).forEach(add);
-      vehicle.steps.forEach(({ label, pose }) => label && add([pose.x, pose.y]));
+      const planned = vehicle.steps.filter(({ label }) => label);
+      points.push(...vehicle.route, ...this.driven_path(vehicle, 0, Infinity));
+      points.push(...planned.map(({ pose }) => [pose.x, pose.y]));
     }
-    return min[0] <= max[0] ? { min, max } : { min: [0, 0], max: [4.5, 4] };
+    const most = (pick) =>
+      [0, 1].map((i) => points.reduce((least, p) => pick(least, p[i]), pick()));
+    const [min, max] = [most(Math.min), most(Math.max)];
+    return points.length ? { min, max } : { min: [0, 0], max: [4.5, 4] };
   }
 }

@@ -97,22 +97,23 @@ export class Report {
 /// What the processes logged. Lines with a time of the run lead there.
 export class Log {
   constructor(list, run, seek) {
-    this.list = list;
-    this.lines = run.log.map(({ process, stamp, level, text, run_s }) => {
-      const row = element("li", "", { class: level });
-      const time = run_s === null ? stamp.slice(11) : seconds(run_s);
-      row.append(element("time", time), element("b", process), element("span", text));
-      if (!["", "info"].includes(level)) row.append(element("em", level));
-      if (run_s !== null) row.addEventListener("click", () => seek(run_s));
-      list.append(row);
-      return { row, run_s };
-    });
-    if (this.lines.length === 0) list.append(element("li", "no lines"));
+    Object.assign(this, { list, run, seek, lines: [] });
+  }
+
+  add({ process, stamp, level, text, run_s }) {
+    const row = element("li", "", { class: level });
+    const time = run_s === null ? stamp.slice(11) : seconds(run_s);
+    row.append(element("time", time), element("b", process), element("span", text));
+    if (!["", "info"].includes(level)) row.append(element("em", level));
+    if (run_s !== null) row.addEventListener("click", () => this.seek(run_s));
+    this.list.append(row);
+    this.lines.push({ row, run_s });
   }
 
   /// Marks the lines logged up to t, where that is known.
   show({ t }) {
     let last = null;
+    this.run.log.slice(this.lines.length).forEach((line) => this.add(line));
     for (const { row, run_s } of this.lines) {
       if (run_s === null) continue;
       row.classList.toggle("later", run_s > t);
@@ -122,28 +123,4 @@ export class Log {
     this.last = last;
     if (last) this.list.scrollTop = last.offsetTop - this.list.clientHeight / 2;
   }
-}
-
-export function run_words(about) {
-  return [
-    `${about.vehicles.length} cars`,
-    `profile ${about.profile}`,
-    about.time,
-    about.map ? `map ${about.map}` : "open ground",
-    `subgraph ${about.subgraph}`,
-    `horizon ${about.horizon_steps} steps of ${about.step_s} s`,
-    about.engine,
-    about.policy === "none" ? "" : `policy ${about.policy}`,
-    about.rounds === "two" ? "two rounds of messages" : "",
-    `revision ${about.revision}`,
-  ].filter(Boolean).join(", ");
-}
-
-export function fault_words(about) {
-  return [
-    about.reason.startsWith("died: ") ? "" : about.reason,
-    ...about.died.map(([process, sign]) => `${process} died (${sign})`),
-    about.fault,
-    about.exit_code === 0 ? "" : `exit code ${about.exit_code}`,
-  ].filter(Boolean).join("; ");
 }

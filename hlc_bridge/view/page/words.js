@@ -84,6 +84,9 @@ export const kTerms = {
   "coupled with": "cars that may come close soon: they plan one after the other",
   maneuver: "driven in this step; named after its criterion, or trim: constant speed and steering",
   subgraph: "the trims and maneuvers that it may use",
+  why: "or the command that finds out, with the folder of the run",
+  plan: "maneuvers from this step on, until it stands",
+  "zones held": "where routes cross or merge: who holds a zone may drive there",
   level: "0 plans first, the others wait for the plans of lower levels",
 };
 
@@ -115,6 +118,16 @@ function pose_words(pose) {
   return `x ${pose.x.toFixed(3)} m, y ${pose.y.toFixed(3)} m, ${turn} deg`;
 }
 
+function zone_rows(run, vehicle, k) {
+  if (run.roads.length === 0) return [];
+  const { zones, next } = run.held_in(vehicle, k);
+  const holds = (one) => run.held_in(one, k).zones.includes(next);
+  return [
+    ["zones held", zones.join(", ") || "none"],
+    ...(next ? [[`zone ${next}, next, held by`, run.vehicles.filter(holds).map(({ id }) => id)]] : []),
+  ];
+}
+
 /// Rows of the report of a car at t: [name, text] or [name, ids of other cars].
 export function report_rows(run, vehicle, t) {
   const report = run.report_at(vehicle, t);
@@ -128,7 +141,7 @@ export function report_rows(run, vehicle, t) {
     rows.push(["difference", millimetres(apart_m)]);
   }
   if (!report) return rows;
-  const { status, reason, quality, gap_m2, level } = report;
+  const { k, status, reason, quality, gap_m2, level } = report;
   const gap = gap_m2 > 0 ? `, at most ${gap_m2.toFixed(4)} m2 above the optimum` : "";
   return [
     ...rows,
@@ -137,6 +150,9 @@ export function report_rows(run, vehicle, t) {
     ["coupled with", report.coupled],
     ["missing", report.missing],
     ["maneuver", report.label || "no plan yet"],
+    ["why", vehicle.whys[k] || `explain RUN --vehicle ${vehicle.id} --step ${k}`],
+    ["plan", run.plan_in(vehicle, k).map(({ label }) => label).join(", ")],
+    ...zone_rows(run, vehicle, k),
     ["subgraph", report.subgraph],
     ["plan found", kQualities[quality] + gap],
     ["cost", quality === "none" ? "none" : `${report.cost_m2.toFixed(4)} m2`],

@@ -195,6 +195,18 @@ TEST(OwnConversionRefuses, AWaitThatBeginsAfterItsStep) {
   EXPECT_TRUE(is_refused(report));
 }
 
+TEST(OwnConversionRefuses, APlanOfWhichTrimsOrLabelsAreMissing) {
+  ReportMessage report;
+  to_wire(good<ReportRecord>(), report);
+  report.plan_trims({1, 2});
+  report.plan_labels({"J2", "J1"});
+  EXPECT_TRUE(from_wire(report).message.has_value());
+  report.plan_labels({"J2"});
+  EXPECT_FALSE(from_wire(report).message.has_value());
+  report.plan_labels({"J2", std::string(kMaxText + 1, 'x')});
+  EXPECT_FALSE(from_wire(report).message.has_value());
+}
+
 TEST(OwnConversionRefuses, NamesThatNobodyGives) {
   const std::string longest(kMaxText, 'x');
   ReportMessage report;

@@ -147,9 +147,16 @@ void put_message(std::ostream& out, const coordination::Outcome& value) {
 void put_message(std::ostream& out, const coordination::Waiting& value) {
   put_all(out, value.vehicles, value.since);
 }
+void put_message(std::ostream& out, const coordination::PlannedManeuver& value) {
+  put_all(out, value.to, value.label);
+}
+void put_message(std::ostream& out, const coordination::HeldRoad& value) {
+  put_all(out, value.route, value.place_m, value.ahead_m);
+}
 void put_message(std::ostream& out, const coordination::Report& value) {
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = value;
-  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u] = value;
+  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u.has_value(),
+          u.value_or(coordination::HeldRoad{}));
 }
 void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d, e] = value;
@@ -490,7 +497,10 @@ coordination::Outcome sample(Random& random) {
 template <>
 ReportRecord sample(Random& random) {
   const std::uint64_t step = random();
-  const coordination::Report report{
+  const auto maneuver = [](Random& r) {
+    return coordination::PlannedManeuver{.to = {whole(r, 100)}, .label = words(r)};
+  };
+  coordination::Report report{
       vehicle(random),
       {step},
       static_cast<coordination::StepStatus>(whole(random, 3)),
@@ -509,7 +519,11 @@ ReportRecord sample(Random& random) {
       list(random, 5, vehicle),
       number(random),
       {list(random, 5, vehicle), {step - std::min<std::uint64_t>(step, whole(random, 200))}},
-      list(random, 5, vehicle)};
+      list(random, 5, vehicle),
+      list(random, 9, maneuver)};
+  if (coin(random)) {
+    report.held = {static_cast<std::uint32_t>(random()), number(random), number(random)};
+  }
   return {report, random(), coin(random), random()};
 }
 

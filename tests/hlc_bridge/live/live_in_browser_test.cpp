@@ -93,7 +93,7 @@ TEST_F(LiveInBrowser, TheNewestMomentIsShownAndTheCarsMove) {
   append(run.go_on(10), server);
   EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 3.6) < 0.01"));
   EXPECT_NE(browser_->value_of(pose), before);
-  EXPECT_EQ(browser_->value_of("page.run.planned_path(page.run.vehicles[0], 0, 17).length > 100"),
+  EXPECT_EQ(browser_->value_of("page.run.plan_points(page.run.vehicles[0], 0).path.length > 50"),
             true)
       << "the maneuvers are known";
   EXPECT_TRUE(becomes_true("document.getElementById('scrub').max > 3.7"));

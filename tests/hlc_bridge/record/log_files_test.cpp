@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
+#include <fstream>
 
 #include "tests/support/temporary_folder.hpp"
 
@@ -58,6 +59,43 @@ TEST(LogFiles, AreBoundedAndMayBeMissing) {
   const std::vector<result::LoggedLine> lines = read_logs(folder.path(), {});
   ASSERT_EQ(lines.size(), kMostLoggedLines + 1);
   EXPECT_THAT(lines.back().text, testing::StartsWith("7 further lines"));
+}
+
+TEST(GrowingLogs, HaveEveryLineOnceAsSoonAsItIsWhole) {
+  const test::TemporaryFolder folder;
+  GrowingLogs logs(folder / "logs");
+  EXPECT_TRUE(logs.new_lines({}).empty());
+  std::filesystem::create_directory(folder / "logs");
+  const auto append = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder / "logs" / name, std::ios::app) << text;
+  };
+  const auto texts = [&] {
+    std::vector<std::string> texts;
+    for (const result::LoggedLine& line : logs.new_lines({})) texts.push_back(line.text);
+    return texts;
+  };
+  append("b.log", "[2026-01-31 10:00:00.500] [info] b: starts\n[2026-01-31 10");
+  EXPECT_THAT(texts(), testing::ElementsAre("starts"));
+  EXPECT_THAT(texts(), testing::IsEmpty());
+  append("b.log", ":00:01.000] [warning] b: late\n");
+  append("a.log", "x\ny\n");
+  EXPECT_THAT(texts(), testing::UnorderedElementsAre("late", "x", "y"));
+}
+
+TEST(GrowingLogs, AreBounded) {
+  const test::TemporaryFolder folder;
+  GrowingLogs logs(folder.path());
+  std::string text;
+  for (std::size_t i = 0; i < kMostLoggedLines - 1; ++i) text += "line\n";
+  put(folder / "a.log", text);
+  EXPECT_EQ(logs.new_lines({}).size(), kMostLoggedLines - 1);
+  put(folder / "b.log", "one\ntwo\nthree\n");
+  const std::vector<result::LoggedLine> lines = logs.new_lines({});
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0].text, "one");
+  EXPECT_THAT(lines[1].text, testing::StartsWith("further lines, see the files in"));
+  put(folder / "c.log", "more\n");
+  EXPECT_TRUE(logs.new_lines({}).empty());
 }
 
 }  // namespace

@@ -53,6 +53,12 @@ ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uin
   for (std::uint64_t i = random() % 3; i > 0; --i) {
     report.blocked_by.push_back(VehicleId{static_cast<std::uint8_t>(random())});
   }
+  for (std::uint64_t i = random() % 4; i > 0; --i) {
+    report.plan.push_back({.to = {random() % 100}, .label = i == 2 ? "a;\\\"b,:" : "J2"});
+  }
+  if (random() % 2 == 0) {
+    report.held = {.route = static_cast<std::uint32_t>(random()), .place_m = 0.1, .ahead_m = 1e-3};
+  }
   record.planning_ns = random();
   record.deadline_missed = random() % 2 == 0;
   record.late_ns = random();
@@ -80,6 +86,8 @@ void expect_equal(const ReportRecord& a, const ReportRecord& b) {
   EXPECT_EQ(a.report.deviation_m, b.report.deviation_m);
   EXPECT_EQ(a.report.waiting, b.report.waiting);
   EXPECT_EQ(a.report.blocked_by, b.report.blocked_by);
+  EXPECT_EQ(a.report.plan, b.report.plan);
+  EXPECT_EQ(a.report.held, b.report.held);
   EXPECT_EQ(a.planning_ns, b.planning_ns);
   EXPECT_EQ(a.deadline_missed, b.deadline_missed);
   EXPECT_EQ(a.late_ns, b.late_ns);

@@ -65,6 +65,19 @@ TEST_F(PlannedMotionTest, IsTheManeuversOneAfterTheOther) {
   }
 }
 
+TEST_F(PlannedMotionTest, OfAReportsPlanIsItsManeuversAsFarAsTheAutomatonHoldsThem) {
+  coordination::Report report;
+  report.planned_trim = {0};
+  report.plan = {{{6}, "test"}, {{7}, "test"}, {{7}, automaton::kSelfLoopLabel}};
+  EXPECT_THAT(planned_maneuvers(report, automaton_),
+              testing::ElementsAre(maneuvers_[0], maneuvers_[1], maneuvers_[2]));
+  report.plan[1].label = "of other weights";
+  EXPECT_THAT(planned_maneuvers(report, automaton_), testing::ElementsAre(maneuvers_[0]));
+  report.plan = {{{6}, automaton::kSelfLoopLabel}};
+  EXPECT_THAT(planned_maneuvers(report, automaton_), testing::SizeIs(1))
+      << "a standing car whose plan is set down anew may continue in another equilibrium";
+}
+
 // In step 2 the controller sets its plan down 7 mm aside: reported from step 3 on.
 TEST_F(PlannedMotionTest, OfAPlanSetDownAnewJumpsJustAfterTheStep) {
   const std::vector<vehicle::State> before = motion();

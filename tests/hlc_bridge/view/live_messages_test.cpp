@@ -65,7 +65,7 @@ std::map<std::pair<int, int>, json> rows_of(const std::vector<std::string>& port
         rows[{steps.at("vehicle").get<int>(), static_cast<int>(k)}] = {
             x,
             columns.at("status")[i],
-            columns.at("maneuver")[i],
+            steps.at("sets")[columns.at("plan")[i].get<std::size_t>()],
             columns.at("planning_s")[i],
             steps.at("sets")[columns.at("waits_for")[i].get<std::size_t>()],
             steps.at("names")[columns.at("subgraph")[i].get<std::size_t>()]};
@@ -89,16 +89,22 @@ TEST(LiveMessages, AllPortionsTogetherAreTheStepsOfTheFinishedRun) {
   EXPECT_EQ(rows, rows_of({page_messages(run)}));
 }
 
-TEST(LiveMessages, AStepIsSentWhenTheNextReportShowsItsManeuver) {
+TEST(LiveMessages, AStepIsSentAtOnceWithTheManeuversOfItsPlan) {
   const FinishedRun run = sample_run(1, 2);
   LiveMessages messages(before(run));
   messages.take(run.rows[0].record);
-  EXPECT_THAT(of_kind("steps", messages.portion()), IsEmpty());
-  messages.take(run.rows[1].record);
   const std::string portion = messages.portion();
-  ASSERT_THAT(of_kind("steps", portion), SizeIs(1));
-  EXPECT_EQ(of_kind("steps", portion)[0].at("columns").at("maneuver"), json::array({0}));
+  EXPECT_THAT(of_kind("steps", portion), SizeIs(1));
   EXPECT_THAT(of_kind("maneuvers", portion), SizeIs(1)) << "before the steps that point to it";
+}
+
+TEST(LiveMessages, LinesOfTheLogAreSentOnceAlsoBeforeTheRunBegins) {
+  LiveMessages messages(before(sample_run(1, 2)));
+  messages.take({{.process = "hlc_1", .text = "waits"}, {.process = "hlc_2", .text = "ready"}});
+  const auto log = of_kind("log", messages.portion());
+  ASSERT_THAT(log, SizeIs(1));
+  EXPECT_EQ(log[0].at("lines")[1].at("text"), "ready");
+  EXPECT_EQ(messages.portion(), "");
 }
 
 TEST(LiveMessages, TheRunStandsInTheFirstPortionOnly) {

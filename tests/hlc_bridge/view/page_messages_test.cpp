@@ -76,14 +76,15 @@ TEST(PageMessages, AReportNamesTheOtherCars) {
             "conflict");
 }
 
-TEST(PageMessages, TheManeuverOfAStepIsFoundByItsNumber) {
+TEST(PageMessages, TheManeuversOfAPlanAreFoundByTheirNumbers) {
   const FinishedRun run = sample_run(3, 20);
   const json maneuvers = of_kind(run, "maneuvers").at(0).at("maneuvers");
   EXPECT_EQ(maneuvers.size(), 2U);
-  const json maneuver = of_kind(run, "steps", 1).at(0).at("columns").at("maneuver");
-  EXPECT_EQ(maneuver.at(0), 0);
-  EXPECT_EQ(maneuver.at(19), -1) << "the next pose, to which it leads, is not known";
-  EXPECT_EQ(maneuvers.at(0).at("path").size(), 3 * 11U);
+  const json steps = of_kind(run, "steps", 1).at(0);
+  EXPECT_EQ(steps.at("tables").at("plan"), "sets");
+  const auto plan = steps.at("columns").at("plan").at(19).get<std::size_t>();
+  EXPECT_EQ(steps.at("sets").at(plan), json({0, 0, 0}));
+  EXPECT_EQ(maneuvers.at(0).at("x").size(), 11U);
   EXPECT_GE(maneuvers.at(0).at("area").size(), 2 * 3U);
 }
 
@@ -103,11 +104,12 @@ TEST(PageMessages, WhatWasDrivenBeforeTheStartIsLeftOut) {
   EXPECT_EQ(of_kind(run, "drive").at(0).at("begin_ms"), 0);
 }
 
-TEST(PageMessages, NamesTheRoundsOfMessages) {
+TEST(PageMessages, NameTheRoundsOfMessagesOnlyIfThereAreTwo) {
   FinishedRun run = sample_run(1, 20);
-  EXPECT_EQ(of_kind(run, "run").at(0).at("rounds"), "sequential");
+  const auto about = [&run] { return of_kind(run, "run").at(0).at("about").get<std::string>(); };
+  EXPECT_THAT(about(), Not(HasSubstr("rounds")));
   run.description.has_two_rounds = true;
-  EXPECT_EQ(of_kind(run, "run").at(0).at("rounds"), "two");
+  EXPECT_THAT(about(), HasSubstr("two rounds of messages"));
 }
 
 TEST(PageMessages, ACarThatIsNotInTheRunIsLeftOut) {

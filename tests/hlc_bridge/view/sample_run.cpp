@@ -22,6 +22,7 @@ ReportRecord report_of(std::uint8_t id, std::uint64_t step, const Pose& pose) {
   report.planned_pose = pose;
   report.planned_trim = id == 2 ? kStanding : kDriving;
   report.maneuver = automaton::kSelfLoopLabel;
+  report.plan.assign(3, {report.planned_trim, automaton::kSelfLoopLabel});
   report.subgraph = "B";
   report.quality = coordination::PlanQuality::kOptimal;
   if (id != 2) return record;

@@ -52,6 +52,18 @@ TEST_F(PlanTest, TheSamePlanOneStepLaterHasTheSameAreasAtTheSameTimes) {
   }
 }
 
+TEST_F(PlanTest, ItsManeuversAreNamedUntilItStands) {
+  const Plan plan =
+      Plan({7}, {1.0, 2.0, 0.5}, *edge(0, 0)).continued({8}, {edge(0, 6), edge(6, 6), edge(6, 0)});
+  const PlannedManeuver stands{.to = {0}, .label = automaton::kSelfLoopLabel};
+  const PlannedManeuver drives{.to = {6}, .label = automaton::kSelfLoopLabel};
+  const PlannedManeuver starts{.to = {6}, .label = "J2"};
+  const PlannedManeuver stops{.to = {0}, .label = "J2"};
+  EXPECT_EQ(plan.maneuvers_from({7}), (std::vector{stands, starts, drives, stops}));
+  EXPECT_EQ(plan.maneuvers_from({10}), std::vector{stops});
+  EXPECT_EQ(plan.maneuvers_from({11}), std::vector{stands});
+}
+
 TEST_F(PlanTest, ThePastIsForgottenButTheLastTwoSteps) {
   Plan plan({0}, {}, *edge(0, 0));
   plan = plan.continued({1}, {edge(0, 6), edge(6, 6), edge(6, 6), edge(6, 6), edge(6, 0)});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/result/planned_motion.hpp"
 #include "hlc_bridge/result/run_description.hpp"
 #include "hlc_bridge/result/run_summary.hpp"
 #include "tests/support/folders.hpp"
@@ -53,6 +54,62 @@ TEST(Experiment, DrivesMoreCarsThanTheLabHas) {
     ASSERT_TRUE(vehicle.tracking_error_m);
     EXPECT_LT(vehicle.tracking_error_m->max, 0.020);
   }
+}
+
+/// Reports of a vehicle, by step.
+std::vector<coordination::Report> reports_of(VehicleId vehicle, const Experiment& experiment) {
+  std::vector<coordination::Report> reports;
+  for (const ReportRecord& record : experiment.reports) {
+    if (record.report.vehicle == vehicle) reports.push_back(record.report);
+  }
+  return reports;
+}
+
+// Without noise no plan is set down anew.
+TEST(Experiment, ThePlanOfAReportIsWhatIsDrivenUntilAnotherOneComesIntoForce) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 10});
+  const Experiment experiment = drive_experiment(scenario, {.steps = 60});
+  const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  std::size_t num_moving = 0;
+  for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
+    const std::vector<coordination::Report> reports = reports_of(vehicle.id, experiment);
+    for (std::size_t k = 0; k + 1 < reports.size(); ++k) {
+      SCOPED_TRACE(testing::Message() << "vehicle " << int{vehicle.id.value} << " step " << k);
+      if (reports[k].status == coordination::StepStatus::kStandby) continue;
+      const auto plan = result::planned_maneuvers(reports[k], automaton);
+      ASSERT_EQ(plan.size(), reports[k].plan.size());
+      ASSERT_LE(plan.size(), scenario.horizon_steps + 1);
+      EXPECT_EQ(plan.front()->label, reports[k].maneuver);
+      EXPECT_EQ(plan.back()->to, scenario.subgraph->standstill());
+      const Pose next = compose(reports[k].planned_pose, plan.front()->displacement);
+      const Pose& reported = reports[k + 1].planned_pose;
+      EXPECT_NEAR((next.position_m() - reported.position_m()).norm(), 0.0, 1e-9);
+      num_moving += plan.front()->displacement.position_m().norm() > 0.0 ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(num_moving, 300U);
+}
+
+TEST(Experiment, NoPlanLeadsBeyondTheRoadThatItsReportHolds) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 10});
+  const Experiment experiment = drive_experiment(scenario, {.steps = 60});
+  const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  std::size_t num_checked = 0;
+  for (const ReportRecord& record : experiment.reports) {
+    const coordination::Report& report = record.report;
+    if (report.status == coordination::StepStatus::kStandby) continue;
+    ASSERT_TRUE(report.held);
+    EXPECT_LT(report.held->route, scenario.conflicts->num_routes());
+    double way_m = 0.0;
+    for (const automaton::Maneuver* maneuver : result::planned_maneuvers(report, automaton)) {
+      way_m += maneuver->displacement.position_m().norm();
+    }
+    EXPECT_LE(way_m, report.held->ahead_m + 0.05) << "chords are shorter than the lane's arc";
+    ++num_checked;
+  }
+  EXPECT_GT(num_checked, 500U);
 }
 
 TEST(Experiment, NoiseOfTheSameSeedGivesTheSameTraceAndOfAnotherSeedAnother) {
