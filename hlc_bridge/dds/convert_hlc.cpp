@@ -326,6 +326,8 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   wire.waits_for(ids_to_wire(waits_for));
   wire.waits_since(waits_since.value);
   wire.blocked_by(ids_to_wire(blocked_by));
+  wire.plan_trims().clear();
+  wire.plan_labels().clear();
   for (const auto& [to, label] : plan) {
     wire.plan_trims().push_back(static_cast<std::uint32_t>(to.index));
     wire.plan_labels().push_back(label.substr(0, kMaxText));

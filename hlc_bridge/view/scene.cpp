@@ -163,17 +163,19 @@ Json Scene::plan(const result::VehicleDescription& vehicle, const coordination::
   for (const auto& [to, label] : report.plan) labels.push_back(label);
   note("maneuvers", fmt::format("{}", fmt::join(labels, ", ")));
   std::vector<Point> path_m{report.planned_pose.position_m()};
+  std::vector<Json> areas;
   if (run_->description.automaton) {
     const automaton::UniversalAutomaton& automaton = run_->description.automaton->automaton();
     Pose frame = report.planned_pose;
     for (const automaton::Maneuver* maneuver : result::planned_maneuvers(report, automaton)) {
       const ConvexPolygon area_m = transformed(maneuver->swept_area_m, frame);
-      entity["lines"].push_back(lines_json(kLineLoop, area_m.vertices_m, kPlan_m, 0.004, color));
+      areas.push_back(lines_json(kLineLoop, area_m.vertices_m, kPlan_m, 0.004, color));
       frame = compose(frame, maneuver->displacement);
       path_m.push_back(frame.position_m());
     }
   }
   entity["lines"].push_back(lines_json(kLineStrip, path_m, kPlan_m, 0.01, color));
+  for (Json& area : areas) entity["lines"].push_back(std::move(area));
   return entity;
 }
 

@@ -74,6 +74,7 @@ TYPED_TEST(WireTypes, DamagedBytesAreReadOrRefused) {
         if constexpr (std::is_same_v<TypeParam, ReportRecord>) {  // words, which may be any
           incoming.message->report.maneuver.clear();
           incoming.message->report.subgraph.clear();
+          incoming.message->report.plan.clear();
         }
         const std::string content = text(*incoming.message);
         if constexpr (std::is_same_v<TypeParam, AutomatonRequest>) {

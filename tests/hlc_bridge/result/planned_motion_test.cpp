@@ -75,7 +75,7 @@ TEST_F(PlannedMotionTest, OfAReportsPlanIsItsManeuversAsFarAsTheAutomatonHoldsTh
   EXPECT_THAT(planned_maneuvers(report, automaton_), testing::ElementsAre(maneuvers_[0]));
   report.plan = {{{6}, automaton::kSelfLoopLabel}};
   EXPECT_THAT(planned_maneuvers(report, automaton_), testing::SizeIs(1))
-      << "a standing car whose plan is set down anew may continue in another equilibrium";
+      << "a standing car whose plan is set down elsewhere may continue in another equilibrium";
 }
 
 // In step 2 the controller sets its plan down 7 mm aside: reported from step 3 on.

@@ -85,7 +85,7 @@ TEST(FoxgloveChannels, CarsHaveTheColoursThatTheyHaveOnThePage) {
   }
 }
 
-TEST(FoxgloveChannels, EveryStepHasThePlannedPathOfEveryCarAndItsStatus) {
+TEST(FoxgloveChannels, EveryStepHasTheWholePlanOfEveryCarAndItsStatus) {
   const FinishedRun run = sample_run(3, 10);
   const Messages steps = messages_of(run, "scene/plans");
   ASSERT_EQ(steps.size(), 10U);
@@ -96,10 +96,11 @@ TEST(FoxgloveChannels, EveryStepHasThePlannedPathOfEveryCarAndItsStatus) {
     for (std::size_t i = 0; i < entities.size(); ++i) {
       const coordination::Report& report = run.rows.at(3 * k + i).record.report;
       const auto& path = entities[i].at("lines").at(0).at("points");
-      EXPECT_EQ(path.size(), std::min(run.description.horizon_steps + 1, steps.size() - k));
+      EXPECT_EQ(path.size(), report.plan.size() + 1);
       EXPECT_DOUBLE_EQ(path.at(0).at("x"), report.planned_pose.x_m);
       EXPECT_EQ(entities[i].at("metadata").at(0).at("value"), to_string(report.status));
-      EXPECT_EQ(entities[i].at("lines").size(), k + 1 < steps.size() ? 2U : 1U);  // with its area
+      EXPECT_EQ(entities[i].at("metadata").at(1).at("value"), "trim, trim, trim");
+      EXPECT_EQ(entities[i].at("lines").size(), report.plan.size() + 1) << "the path, and areas";
     }
   }
 }

@@ -126,7 +126,7 @@ TEST(LiveMessages, TheRunBeginsWithTheFirstStepOfAnyCarWhoeverIsHeardFirst) {
   const auto rows = rows_of({portion});
   ASSERT_FALSE(rows.empty());
   EXPECT_EQ(rows.begin()->first, std::pair(1, 0));
-  EXPECT_EQ(rows.rbegin()->first, std::pair(2, 15));
+  EXPECT_EQ(rows.rbegin()->first, std::pair(2, 16));
 }
 
 TEST(LiveMessages, ACarThatNeverReportsDoesNotHoldUpTheOthers) {

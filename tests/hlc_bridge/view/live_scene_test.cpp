@@ -37,22 +37,22 @@ TEST(LiveScene, HasTheMapOnceAndThenOnlyWhatIsNew) {
   EXPECT_EQ(entities[0].at("cubes").at(0).at("pose").at("position").at("x"), 1.5);
 }
 
-TEST(LiveScene, APlanIsShownWhenTheNextReportShowsWhatIsDriven) {
+TEST(LiveScene, AReportIsShownOnceWithItsPlan) {
   const FinishedRun run = sample_run(2, 3);
   LiveScene scene(before(run));
   static_cast<void>(scene.updates());
   scene.take(run.rows[0].record);
-  EXPECT_THAT(topics_of(scene.updates()), ElementsAre("reports"));
   scene.take(run.rows[2].record);  // of the same car
   const std::vector<SceneMessage> updates = scene.updates();
   ASSERT_THAT(topics_of(updates), ElementsAre("scene/plans", "reports"));
   const json plan = json::parse(updates[0].text).at("entities").at(0);
   EXPECT_EQ(plan.at("id"), "plan 1");
-  EXPECT_EQ(plan.at("lines").at(0).at("points").size(), 2U);
+  EXPECT_EQ(plan.at("lines").at(0).at("points").size(), 4U);
   const json report = json::parse(updates[1].text).at("reports").at(0);
   EXPECT_EQ(report.at("vehicle"), 1);
   EXPECT_EQ(report.at("step"), run.rows[2].record.report.step.value);
   EXPECT_EQ(report.at("status"), "planned");
+  EXPECT_THAT(topics_of(scene.updates()), IsEmpty());
 }
 
 TEST(LiveScene, EveryChannelHasASchemaOfItsType) {

@@ -41,7 +41,7 @@ TEST(PageMessages, PlannedAndDrivenPosesReadBackToTenthsOfMillimetres) {
   const FinishedRun run = sample_run(3, 20);
   const json steps = of_kind(run, "steps", 3).at(0);
   const std::vector<double> x = sums(steps.at("x"), 1e-4);
-  const std::vector<double> heading = sums(steps.at("heading"), 1e-3);
+  const std::vector<double> heading = sums(steps.at("yaw"), 1e-3);
   ASSERT_EQ(x.size(), 20U);
   for (const result::StepRecord& row : run.rows) {
     if (row.record.report.vehicle != VehicleId{3}) continue;

@@ -65,7 +65,7 @@ std::vector<coordination::Report> reports_of(VehicleId vehicle, const Experiment
   return reports;
 }
 
-// Without noise no plan is set down anew.
+// Without noise every plan stays where it is.
 TEST(Experiment, ThePlanOfAReportIsWhatIsDrivenUntilAnotherOneComesIntoForce) {
   const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 10});
