@@ -37,8 +37,11 @@ constexpr std::array<Rgb, kNumColours> kCars{{{0.835, 0.369, 0.0},
 
 double finite(double value) { return std::isfinite(value) ? value : 0.0; }
 
+/// To a tenth of a millimetre: longer numbers are most of the text, and show nothing more.
+double rounded_m(double value_m) { return std::round(finite(value_m) * 1e4) / 1e4; }
+
 Json point_json(double x_m, double y_m, double z_m) {
-  return {{"x", finite(x_m)}, {"y", finite(y_m)}, {"z", z_m}};
+  return {{"x", rounded_m(x_m)}, {"y", rounded_m(y_m)}, {"z", z_m}};
 }
 
 Json pose_json(const Pose& pose, double z_m) {

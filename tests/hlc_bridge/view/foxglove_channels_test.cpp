@@ -97,7 +97,7 @@ TEST(FoxgloveChannels, EveryStepHasTheWholePlanOfEveryCarAndItsStatus) {
       const coordination::Report& report = run.rows.at(3 * k + i).record.report;
       const auto& path = entities[i].at("lines").at(0).at("points");
       EXPECT_EQ(path.size(), report.plan.size() + 1);
-      EXPECT_DOUBLE_EQ(path.at(0).at("x"), report.planned_pose.x_m);
+      EXPECT_NEAR(path.at(0).at("x"), report.planned_pose.x_m, 5.1e-5);
       EXPECT_EQ(entities[i].at("metadata").at(0).at("value"), to_string(report.status));
       EXPECT_EQ(entities[i].at("metadata").at(1).at("value"), "trim, trim, trim");
       EXPECT_EQ(entities[i].at("lines").size(), report.plan.size() + 1) << "the path, and areas";
