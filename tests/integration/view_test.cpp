@@ -32,7 +32,8 @@ class View {
       : log_(lab.folder() / "logs" / "view.txt"),
         process_({test::build_folder() + "/bin/view", "--scenario=" + kScenario,
                   "--dds_domain=" + std::to_string(lab.lab_domain()), "--transport=loopback",
-                  "--simulated_time=" + simulated_time, "--port=0"},
+                  "--simulated_time=" + simulated_time, "--port=0",
+                  "--logs=" + (lab.folder() / "logs").string()},
                  log_) {
     EXPECT_TRUE(eventually(60s, [this] { return port() != 0; })) << read_text(log_);
   }
@@ -87,6 +88,16 @@ std::set<int> cars_with_states(const std::vector<nlohmann::json>& messages) {
     if (message.at("kind") == "drive") cars.insert(message.at("vehicle").get<int>());
   }
   return cars;
+}
+
+/// Names of the processes whose log has lines.
+std::set<std::string> logging_processes(const std::vector<nlohmann::json>& messages) {
+  std::set<std::string> names;
+  for (const nlohmann::json& message : messages) {
+    if (message.at("kind") != "log") continue;
+    for (const nlohmann::json& line : message.at("lines")) names.insert(line.at("process"));
+  }
+  return names;
 }
 
 /// Those of the record of a finished run.
@@ -154,6 +165,9 @@ TEST(View, ShowsAllStepsOfAllCarsEvenIfItIsStartedInTheMiddleOfTheRun) {
   client.get("/events");
   const std::vector<nlohmann::json> messages = messages_of(client);
   EXPECT_EQ(cars_with_states(messages), std::set({1, 2, 3}));
+  EXPECT_THAT(
+      logging_processes(messages),
+      testing::IsSupersetOf({"high_level_controller_1", "high_level_controller_2", "lab_control"}));
   EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
   const auto recorded = steps_in(lab.folder());
   EXPECT_EQ(recorded.size(), 3U);

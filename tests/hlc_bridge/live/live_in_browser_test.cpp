@@ -86,17 +86,17 @@ TEST_F(LiveInBrowser, TheNewestMomentIsShownAndTheCarsMove) {
   RunningServer server;
   append(run.go_on(10), server);
   browser_->open(url_of(server));
-  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps === 9"));
-  EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 1.6) < 0.01"));
+  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps === 10"));
+  EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 1.8) < 0.01"));
   const std::string pose = "(page.run.driven_at(page.run.vehicles[0], page.player.t) || {x: 0}).x";
   const auto before = browser_->value_of(pose);
   append(run.go_on(10), server);
-  EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 3.6) < 0.01"));
+  EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 3.8) < 0.01"));
   EXPECT_NE(browser_->value_of(pose), before);
-  EXPECT_EQ(browser_->value_of("page.run.plan_points(page.run.vehicles[0], 0).path.length > 50"),
+  EXPECT_EQ(browser_->value_of("page.run.plan_points(page.run.vehicles[0], 0).path.length > 30"),
             true)
       << "the maneuvers are known";
-  EXPECT_TRUE(becomes_true("document.getElementById('scrub').max > 3.7"));
+  EXPECT_TRUE(becomes_true("document.getElementById('scrub').max > 3.9"));
   EXPECT_EQ(browser_->value_of("document.getElementById('fault').textContent"), "");
 }
 
@@ -112,7 +112,7 @@ TEST_F(LiveInBrowser, WhoGoesBackStaysThereUntilLiveIsPressed) {
   EXPECT_EQ(browser_->value_of("page.player.t"), 0.4);
   EXPECT_EQ(browser_->value_of("document.getElementById('live').ariaPressed"), "false");
   static_cast<void>(browser_->value_of("document.getElementById('live').click()"));
-  EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 3.6) < 0.01"));
+  EXPECT_TRUE(becomes_true("Math.abs(page.player.t - 3.8) < 0.01"));
 }
 
 TEST_F(LiveInBrowser, WhyACarKeepsItsPlanOrWaitsIsNamedAsInAFinishedRun) {
@@ -142,14 +142,14 @@ TEST_F(LiveInBrowser, ABrokenConnectionIsNamedAndNothingIsLostOrTwiceThere) {
   const std::uint16_t port = server->port();
   append(first, *server);
   browser_->open(url_of(*server));
-  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps === 9"));
+  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps === 10"));
   server.reset();
   EXPECT_TRUE(becomes_true(
       "document.getElementById('fault').textContent.startsWith('The connection is broken')"));
   server.emplace(std::chrono::seconds{20}, port);
   append(first, *server);
   append(then, *server);
-  ASSERT_TRUE(becomes_true("page.run.num_steps === 19"));
+  ASSERT_TRUE(becomes_true("page.run.num_steps === 20"));
   EXPECT_EQ(browser_->value_of("document.getElementById('fault').textContent"), "");
   EXPECT_EQ(browser_->value_of(
                 "page.run.vehicles.map((car) => car.drives.map(({states}) => states.length))"),
@@ -167,7 +167,7 @@ TEST_F(LiveInBrowser, AnotherRunAtTheSameAddressIsShownFromItsBegin) {
   server.emplace(std::chrono::seconds{20}, port, "2");
   append(SlowRun("second").go_on(5), *server);
   EXPECT_TRUE(becomes_true(
-      "window.page && document.title === 'Run of second' && page.run.num_steps === 4"));
+      "window.page && document.title === 'Run of second' && page.run.num_steps === 5"));
 }
 
 TEST_F(LiveInBrowser, TheEndIsShown) {
@@ -175,7 +175,7 @@ TEST_F(LiveInBrowser, TheEndIsShown) {
   RunningServer server;
   append(run.go_on(5), server);
   browser_->open(url_of(server));
-  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps === 4"));
+  ASSERT_TRUE(becomes_true("window.page && page.run.num_steps === 5"));
   server.append(run.end());
   server.end();
   EXPECT_TRUE(
