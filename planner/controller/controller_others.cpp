@@ -24,6 +24,13 @@ void mark(const std::vector<VehicleId>& vehicles, bool OtherVehicle::*as,
 
 }  // namespace
 
+bool Controller::will_meet(const ConvexPolygon& area_m) const {
+  const coordination::OccupiedAreas areas =
+      in_force_->announced_areas({last_step().value + 1});
+  const auto meets = [&area_m](const ConvexPolygon& one) { return intersects(one, area_m); };
+  return std::ranges::any_of(areas.areas_m, meets) || meets(areas.final_area_m);
+}
+
 CoupledVehicle Controller::coupled_vehicle(VehicleId other) const {
   const auto respected = step_.respected.find(other);
   return {.traffic = &neighbours_.traffic_of(other),
@@ -49,6 +56,7 @@ void Controller::extend_authority(SharedStep& shared) {
   if (!authority_) return;
   const automaton::UniversalAutomaton& automaton = subgraph().automaton();
   std::vector<right_of_way::Blocked> blocked;
+  for (const ConvexPolygon& area_m : standing_m_) blocked.push_back({std::nullopt, area_m});
   std::vector<const coordination::Traffic*> holders;
   for (const coordination::Traffic* traffic : neighbours_.received()) {
     if (traffic->claim && traffic->claim->route < options_.conflicts->num_routes()) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -18,6 +20,9 @@ namespace hlc::closed_loop {
 namespace {
 
 constexpr std::uint64_t kMostLostSteps = 100'000;
+/// Far beyond any map [m], and any turn [rad].
+constexpr double kLargestObstacle = 1000.0;
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 template <class Number>
 std::optional<Number> number_in(const std::string& text) {
@@ -44,7 +49,8 @@ class ChangeText {
     if (key_ == "speed") return max_speed();
     if (key_ == "without") return Fork::Without{vehicle(value_)};
     if (key_ == "lost") return lost();
-    refuse("priorities=, coordination=, criteria=, speed=, without= or lost=");
+    if (key_ == "obstacle") return obstacle();
+    refuse("priorities=, coordination=, criteria=, speed=, without=, lost= or obstacle=");
   }
 
  private:
@@ -114,6 +120,23 @@ class ChangeText {
     }
     result.steps = *steps;
     return result;
+  }
+
+  [[nodiscard]] Fork::Obstacle obstacle() const {
+    const std::vector<std::string> texts = split(value_, ',');
+    if (texts.size() != 4 && texts.size() != 5) {
+      refuse("obstacle=X,Y,LENGTH,WIDTH or obstacle=X,Y,LENGTH,WIDTH,HEADING in m and rad");
+    }
+    std::vector<double> numbers;
+    for (const std::string& text : texts) {
+      numbers.push_back(number_in<double>(text).value_or(kNoNumber));
+      if (std::abs(numbers.back()) <= kLargestObstacle) continue;  // not so if it is no number
+      refuse(fmt::format("an obstacle with numbers of at most {}", kLargestObstacle));
+    }
+    if (numbers[2] <= 0.0 || numbers[3] <= 0.0) refuse("an obstacle with length and width above 0");
+    return {.pose = {numbers[0], numbers[1], texts.size() == 5 ? numbers[4] : 0.0},
+            .length_m = numbers[2],
+            .width_m = numbers[3]};
   }
 
   const std::string& text_;

@@ -196,6 +196,12 @@ TEST(ChangeText, IsReadAsWritten) {
             Fork::Change(Fork::MaxSpeed{.vehicle = {2}, .max_speed_mps = 0.4}));
   EXPECT_EQ(read("without=3"), Fork::Change(Fork::Without{{3}}));
   EXPECT_EQ(read("lost=1>2"), Fork::Change(Fork::Lost{.from = {1}, .to = {2}, .steps = 1}));
+  EXPECT_EQ(read("obstacle=1.5,2,0.3,0.1,-0.5"),
+            Fork::Change(Fork::Obstacle{
+                .pose = {1.5, 2.0, -0.5}, .length_m = 0.3, .width_m = 0.1}));
+  EXPECT_EQ(
+      read("obstacle=1.5,2,0.3,0.1"),
+      Fork::Change(Fork::Obstacle{.pose = {1.5, 2.0, 0.0}, .length_m = 0.3, .width_m = 0.1}));
   EXPECT_EQ(read("lost=1>2:7"), Fork::Change(Fork::Lost{.from = {1}, .to = {2}, .steps = 7}));
 }
 
@@ -228,7 +234,12 @@ INSTANTIATE_TEST_SUITE_P(
                     BadChange{"criteria=J2", "VEHICLE:CRITERION"},
                     BadChange{"lost=1", "VEHICLE>VEHICLE"}, BadChange{"lost=1>1", "two vehicles"},
                     BadChange{"criteria=1:", "CRITERION"}, BadChange{"lost=1>2:0", "1 ..."},
-                    BadChange{"lost=1>2:3:4", "1 ..."}, BadChange{"lost=1>2\n:3", "1, 2, 3"}));
+                    BadChange{"lost=1>2:3:4", "1 ..."}, BadChange{"obstacle=1,2,0.3", "WIDTH"},
+                    BadChange{"obstacle=1,2,0.3,0.1,0,0", "WIDTH"},
+                    BadChange{"obstacle=1,2,0.3,0", "above 0"},
+                    BadChange{"obstacle=1,nan,0.3,0.1", "at most 1000"},
+                    BadChange{"obstacle=1,2,0.3,1e9", "at most 1000"},
+                    BadChange{"obstacle=1,2,x,0.1", "at most 1000"}, BadChange{"lost=1>2\n:3", "1, 2, 3"}));
 
 TEST(Fork, OneThatCannotBeDrivenIsRefused) {
   const auto refusal = [](const std::vector<Fork>& forks) -> std::string {
