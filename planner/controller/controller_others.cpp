@@ -24,13 +24,6 @@ void mark(const std::vector<VehicleId>& vehicles, bool OtherVehicle::*as,
 
 }  // namespace
 
-bool Controller::will_meet(const ConvexPolygon& area_m) const {
-  const coordination::OccupiedAreas areas =
-      in_force_->announced_areas({last_step().value + 1});
-  const auto meets = [&area_m](const ConvexPolygon& one) { return intersects(one, area_m); };
-  return std::ranges::any_of(areas.areas_m, meets) || meets(areas.final_area_m);
-}
-
 CoupledVehicle Controller::coupled_vehicle(VehicleId other) const {
   const auto respected = step_.respected.find(other);
   return {.traffic = &neighbours_.traffic_of(other),

@@ -31,6 +31,7 @@ struct AppliedForks::Step {
   std::vector<Member>& members;
   controller::JointStepRules& rules;
   std::set<VehicleId>& gone;
+  const std::vector<road::DrivableRoute>& routes;  ///< the scenario's
 
   void apply(const Fork::Priorities& change) const {
     const coordination::PriorityRule plans_before(change.first);
@@ -77,6 +78,20 @@ struct AppliedForks::Step {
     }
   }
 
+  void apply(const Fork::Route& change) const {
+    if (gone.contains(change.vehicle)) return;
+    controller::Controller& controller = member_of(change.vehicle, members).hlc.controller();
+    controller.change_route(
+        *std::ranges::find(routes, change.name, &road::DrivableRoute::name));
+    if (controller.fits_route()) return;
+    const road::Placement& placement = controller.placement().value();
+    throw std::invalid_argument(
+        fmt::format("--set: route={}:{} from step {}, must be a route that vehicle {} fits there: "
+                    "it is {:.2f} m beside its path, turned by {:.2f} rad",
+                    change.vehicle.value, change.name, from, change.vehicle.value,
+                    placement.distance_m, placement.turned_rad));
+  }
+
   /// In requests_.
   void apply(const Fork::Labels& /*change*/) const {}
   void apply(const Fork::MaxSpeed& /*change*/) const {}
@@ -119,7 +134,12 @@ void AppliedForks::prepare_requests(const std::vector<Member>& members) {
 
 void AppliedForks::apply(std::uint64_t from, StepIndex now, std::vector<Member>& members,
                          controller::JointStepRules& rules) {
-  const Step step{.now = now, .from = from, .members = members, .rules = rules, .gone = gone_};
+  const Step step{.now = now,
+                  .from = from,
+                  .members = members,
+                  .rules = rules,
+                  .gone = gone_,
+                  .routes = scenario_->routes};
   for (const Fork& fork : forks_) {
     if (fork.from != from) continue;
     for (const Fork::Change& change : fork.changes) {

@@ -50,7 +50,9 @@ class ChangeText {
     if (key_ == "without") return Fork::Without{vehicle(value_)};
     if (key_ == "lost") return lost();
     if (key_ == "obstacle") return obstacle();
-    refuse("priorities=, coordination=, criteria=, speed=, without=, lost= or obstacle=");
+    if (key_ == "route") return route();
+    refuse(
+        "priorities=, coordination=, criteria=, speed=, without=, lost=, obstacle= or route=");
   }
 
  private:
@@ -139,6 +141,15 @@ class ChangeText {
             .width_m = numbers[3]};
   }
 
+  [[nodiscard]] Fork::Route route() const {
+    const auto [id, name] = halves(':', "route=VEHICLE:ROUTE");
+    const Fork::Route result{.vehicle = vehicle(id), .name = name};
+    std::vector<std::string> names;
+    for (const road::DrivableRoute& one : scenario_.routes) names.push_back(one.name);
+    if (std::ranges::count(names, name) > 0) return result;
+    refuse(fmt::format("a route of the scenario: {}", fmt::join(names, ", ")));
+  }
+
   const std::string& text_;
   const scenario::Scenario& scenario_;
   std::string key_;
@@ -150,6 +161,7 @@ std::optional<VehicleId> vehicle_of(const Fork::Change& change) {
   if (const auto* const one = std::get_if<Fork::Labels>(&change)) return one->vehicle;
   if (const auto* const one = std::get_if<Fork::MaxSpeed>(&change)) return one->vehicle;
   if (const auto* const one = std::get_if<Fork::Without>(&change)) return one->vehicle;
+  if (const auto* const one = std::get_if<Fork::Route>(&change)) return one->vehicle;
   return std::nullopt;
 }
 

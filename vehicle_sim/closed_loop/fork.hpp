@@ -55,8 +55,14 @@ struct Fork {
     double width_m{};
     friend bool operator==(const Obstacle&, const Obstacle&) = default;
   };
-  using Change =
-      std::variant<Priorities, Coordination, Labels, MaxSpeed, Without, Lost, Obstacle>;
+  /// One of the scenario's routes instead of the vehicle's.
+  struct Route {
+    VehicleId vehicle;
+    std::string name;
+    friend bool operator==(const Route&, const Route&) = default;
+  };
+  using Change = std::variant<Priorities, Coordination, Labels, MaxSpeed, Without, Lost, Obstacle,
+                              Route>;
 
   std::uint64_t from{};  ///< step of the experiment, from 0
   std::vector<Change> changes;
@@ -71,7 +77,8 @@ inline constexpr char kChangeForms[] =
     "without=3: vehicle 3 is gone\n"
     "lost=1>3:5: what vehicle 1 sends to 3 is lost for 5 steps (without a number: 1)\n"
     "obstacle=2.0,1.5,0.3,0.1,0.8: a rectangle stands at x = 2.0 m, y = 1.5 m, 0.3 m long and 0.1 m "
-    "wide, turned by 0.8 rad (without: 0)";
+    "wide, turned by 0.8 rad (without: 0)\n"
+    "route=3:blue: vehicle 3 drives on along the scenario's route blue";
 
 /// @throws std::invalid_argument with one line: the text and what is allowed; vehicles are the
 /// scenario's

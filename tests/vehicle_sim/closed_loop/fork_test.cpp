@@ -202,6 +202,7 @@ TEST(ChangeText, IsReadAsWritten) {
   EXPECT_EQ(
       read("obstacle=1.5,2,0.3,0.1"),
       Fork::Change(Fork::Obstacle{.pose = {1.5, 2.0, 0.0}, .length_m = 0.3, .width_m = 0.1}));
+  EXPECT_EQ(read("route=2:red"), Fork::Change(Fork::Route{.vehicle = {2}, .name = "red"}));
   EXPECT_EQ(read("lost=1>2:7"), Fork::Change(Fork::Lost{.from = {1}, .to = {2}, .steps = 7}));
 }
 
@@ -234,7 +235,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadChange{"criteria=J2", "VEHICLE:CRITERION"},
                     BadChange{"lost=1", "VEHICLE>VEHICLE"}, BadChange{"lost=1>1", "two vehicles"},
                     BadChange{"criteria=1:", "CRITERION"}, BadChange{"lost=1>2:0", "1 ..."},
-                    BadChange{"lost=1>2:3:4", "1 ..."}, BadChange{"obstacle=1,2,0.3", "WIDTH"},
+                    BadChange{"lost=1>2:3:4", "1 ..."}, BadChange{"route=1", "VEHICLE:ROUTE"},
+                    BadChange{"route=1:ring", "blue, green, red"},
+                    BadChange{"route=9:red", "1, 2, 3"}, BadChange{"obstacle=1,2,0.3", "WIDTH"},
                     BadChange{"obstacle=1,2,0.3,0.1,0,0", "WIDTH"},
                     BadChange{"obstacle=1,2,0.3,0", "above 0"},
                     BadChange{"obstacle=1,nan,0.3,0.1", "at most 1000"},
