@@ -83,7 +83,7 @@ class Controller {
   /// Follows another route from the next step on, from its place there (see `placement`). Not in
   /// the middle of a step. The plan in force stays, and is the fallback as always: where no plan
   /// leads on along the route, the vehicle drives that one to its end, and stands and reports it if
-  /// it cannot get onto the route from there. Others cannot plan for it any more.
+  /// it cannot get onto the route from there. Others can no longer plan for it.
   /// @pre a plan is in force; the route has a number in ControllerOptions::conflicts, if there are
   void change_route(road::DrivableRoute next);
 

@@ -40,8 +40,7 @@ void Controller::change_route(road::DrivableRoute next) {
 }
 
 bool Controller::will_meet(const ConvexPolygon& area_m) const {
-  const coordination::OccupiedAreas areas =
-      in_force_->announced_areas({last_step().value + 1});
+  const coordination::OccupiedAreas areas = in_force_->announced_areas({last_step().value + 1});
   const auto meets = [&area_m](const ConvexPolygon& one) { return intersects(one, area_m); };
   return std::ranges::any_of(areas.areas_m, meets) || meets(areas.final_area_m);
 }

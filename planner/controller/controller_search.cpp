@@ -27,7 +27,8 @@ search::HorizonProblem Controller::pose_problem(CoupledObstacleRule rule) const 
   search::HorizonProblem problem =
       posed_alone(authority_ ? authority_->end_s_m(tracker_.s_m().value()) : kNoEnd_m);
   problem.obstacles_m = obstacles_m(rule);
-  for (auto& areas_m : problem.obstacles_m) std::ranges::copy(standing_m_, std::back_inserter(areas_m));
+  for (auto& areas_m : problem.obstacles_m)
+    std::ranges::copy(standing_m_, std::back_inserter(areas_m));
   if (authority_) {
     const ConvexPolygon bar_m =
         authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint);

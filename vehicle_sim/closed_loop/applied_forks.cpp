@@ -56,14 +56,13 @@ struct AppliedForks::Step {
   }
 
   void apply(const Fork::Lost& change) const {
-    rules.is_lost = [former = rules.is_lost, change,
-                     from = now](const controller::Delivery& one) {
+    rules.is_lost = [former = rules.is_lost, change, from = now](const controller::Delivery& one) {
       const bool is_now = one.step >= from && one.step.value < from.value + change.steps;
       return (is_now && one.from == change.from && one.to == change.to) || (former && former(one));
     };
   }
 
-  /// No vehicle is to be on its way into it: it could not stop any more.
+  /// No vehicle is to be on its way into it: it can no longer stop.
   void apply(const Fork::Obstacle& change) const {
     const ConvexPolygon area_m = footprint_area({change.length_m, change.width_m}, change.pose);
     for (Member& member : members) {
@@ -81,8 +80,7 @@ struct AppliedForks::Step {
   void apply(const Fork::Route& change) const {
     if (gone.contains(change.vehicle)) return;
     controller::Controller& controller = member_of(change.vehicle, members).hlc.controller();
-    controller.change_route(
-        *std::ranges::find(routes, change.name, &road::DrivableRoute::name));
+    controller.change_route(*std::ranges::find(routes, change.name, &road::DrivableRoute::name));
     if (controller.fits_route()) return;
     const road::Placement& placement = controller.placement().value();
     throw std::invalid_argument(

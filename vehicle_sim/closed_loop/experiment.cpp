@@ -167,7 +167,8 @@ class Lab {
       member.choice.end_step(member.hlc.controller(), reports[i].report);
     }
     // Lab control ends a run in logical time when a process is gone.
-    for (const VehicleId gone : forks_->gone()) run_.report({.report = {.vehicle = gone, .step = step}});
+    for (const VehicleId gone : forks_->gone())
+      run_.report({.report = {.vehicle = gone, .step = step}});
   }
 
   /// @pre the experiment has begun

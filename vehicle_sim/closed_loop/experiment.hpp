@@ -64,8 +64,8 @@ struct Experiment {
 ///
 /// @pre the automaton's step is a multiple of the vehicles' tick (20 ms)
 /// @throws std::invalid_argument with one line: maneuvers or a speed of a fork that the automaton
-/// has no subgraph for (before the run begins); an obstacle in the way of a vehicle, or a route that
-/// the vehicle does not fit (in the fork's step)
+/// has no subgraph for (before the run begins); an obstacle in the way of a vehicle, or a route
+/// that the vehicle does not fit (in the fork's step)
 [[nodiscard]] Experiment drive_experiment(const scenario::Scenario& scenario,
                                           const ExperimentOptions& options);
 

@@ -51,8 +51,7 @@ class ChangeText {
     if (key_ == "lost") return lost();
     if (key_ == "obstacle") return obstacle();
     if (key_ == "route") return route();
-    refuse(
-        "priorities=, coordination=, criteria=, speed=, without=, lost=, obstacle= or route=");
+    refuse("priorities=, coordination=, criteria=, speed=, without=, lost=, obstacle= or route=");
   }
 
  private:

@@ -74,9 +74,10 @@ Fork::Obstacle random_obstacle(const scenario::Scenario& scenario, std::mt19937_
   };
   const scenario::ScenarioVehicle& car = scenario.vehicles[random() % scenario.vehicles.size()];
   const Point at_m = car.path.at(car.start_s_m + between(0.3, 5.0));
-  return {.pose = {at_m.x() + between(-0.1, 0.1), at_m.y() + between(-0.1, 0.1), between(-3.0, 3.0)},
-          .length_m = between(0.02, 0.4),
-          .width_m = between(0.02, 0.2)};
+  return {
+      .pose = {at_m.x() + between(-0.1, 0.1), at_m.y() + between(-0.1, 0.1), between(-3.0, 3.0)},
+      .length_m = between(0.02, 0.4),
+      .width_m = between(0.02, 0.2)};
 }
 
 /// Across the road 4 m ahead of the first car's start: it cannot pass.
@@ -84,9 +85,8 @@ Fork::Obstacle wall() {
   const scenario::ScenarioVehicle& car = three_cars().vehicles.front();
   const double s_m = car.start_s_m + 4.0;
   const Point at_m = car.path.at(s_m);
-  return {.pose = {at_m.x(), at_m.y(), car.path.heading_rad_at(s_m)},
-          .length_m = 0.05,
-          .width_m = 0.6};
+  return {
+      .pose = {at_m.x(), at_m.y(), car.path.heading_rad_at(s_m)}, .length_m = 0.05, .width_m = 0.6};
 }
 
 /// No run, if the obstacle stands where a vehicle can no longer stop before it.
@@ -120,14 +120,15 @@ TEST_P(RandomForkObstacle, IsTouchedByNoVehicleAlsoWhereTheyDroveBefore) {
   EXPECT_GT(in_the_way, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fork, RandomForkObstacle, testing::Values(&three_cars, &cars_with_right_of_way));
+INSTANTIATE_TEST_SUITE_P(Fork, RandomForkObstacle,
+                         testing::Values(&three_cars, &cars_with_right_of_way));
 
 TEST(ForkObstacle, StopsACarThatCannotPassAndNobodyElseIsBlamed) {
   const VehicleId car = three_cars().vehicles.front().id;
   const Experiment run = drive(three_cars(), {wall()});
-  const ReportRecord& last = *std::ranges::find_if(
-      run.reports.rbegin(), run.reports.rend(),
-      [&](const ReportRecord& one) { return one.report.vehicle == car; });
+  const ReportRecord& last =
+      *std::ranges::find_if(run.reports.rbegin(), run.reports.rend(),
+                            [&](const ReportRecord& one) { return one.report.vehicle == car; });
   EXPECT_EQ(run.drives.at(car.value).back().speed_mps, 0.0);
   EXPECT_EQ(last.report.status, coordination::StepStatus::kPlanned) << "it plans to stand";
   EXPECT_THAT(last.report.waiting.vehicles, testing::IsEmpty());
@@ -157,8 +158,7 @@ TEST(ForkObstacle, NoAuthorityGrowsIntoItWithRightOfWay) {
   const right_of_way::ConflictMap& map = *scenario.conflicts;
   const scenario::ScenarioVehicle& car = scenario.vehicles.front();
   const Point at_m = car.path.at(car.start_s_m + 3.0);
-  const Fork::Obstacle obstacle{
-      .pose = {at_m.x(), at_m.y(), 0.0}, .length_m = 0.1, .width_m = 0.1};
+  const Fork::Obstacle obstacle{.pose = {at_m.x(), at_m.y(), 0.0}, .length_m = 0.1, .width_m = 0.1};
   const ConvexPolygon area_m = area_of(obstacle);
   const auto gained_in_it = [&](std::vector<Fork> forks) {
     std::map<VehicleId, std::int64_t> ends;

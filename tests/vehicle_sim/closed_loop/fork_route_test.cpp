@@ -42,8 +42,7 @@ const scenario::Scenario& cars_with_right_of_way() {
 
 Experiment drive(const scenario::Scenario& scenario, std::vector<Fork> forks,
                  std::uint64_t steps = kSteps) {
-  Experiment experiment =
-      drive_experiment(scenario, {.steps = steps, .forks = std::move(forks)});
+  Experiment experiment = drive_experiment(scenario, {.steps = steps, .forks = std::move(forks)});
   EXPECT_EQ(experiment.facts.exit_code, 0) << experiment.facts.reason;
   return experiment;
 }
@@ -136,8 +135,7 @@ TEST(ForkRoute, ThatTheCarDoesNotFitThereIsRefusedNamingWhereItIs) {
 TEST(ForkRoute, ToItsOwnRouteDrivesTheSame) {
   EXPECT_EQ(
       result::trace_sha256(rows_of(drive(
-          three_cars(),
-          {{.from = 30, .changes = {Fork::Route{.vehicle = {1}, .name = "red"}}}}))),
+          three_cars(), {{.from = 30, .changes = {Fork::Route{.vehicle = {1}, .name = "red"}}}}))),
       result::trace_sha256(rows_of(as_it_was(three_cars()))));
 }
 
@@ -158,7 +156,8 @@ TEST(ForkRoute, WithRightOfWayACarClaimsCellsOfItsNewRoute) {
   const auto other = std::ranges::find_if(scenario.routes, [&](const road::DrivableRoute& one) {
     const Footprint& footprint = scenario.subgraph->automaton().vehicle.footprint;
     const Pose pose = planned_pose(as_it_was(scenario), car.id, 20);
-    return one.number != car.route_number && road::fits(road::placement_on(one, pose, footprint), one);
+    return one.number != car.route_number &&
+           road::fits(road::placement_on(one, pose, footprint), one);
   });
   ASSERT_NE(other, scenario.routes.end());
   std::map<std::uint64_t, std::uint32_t> claimed;
