@@ -9,6 +9,7 @@
 #include <regex>
 #include <string>
 
+#include "hlc_bridge/record/run_folder.hpp"
 #include "planner/common/text_file.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
@@ -84,6 +85,10 @@ TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
   EXPECT_THAT(forked.output, HasSubstr("at step 20 (4.0 s)"));
   EXPECT_THAT(replay(second, "").output, HasSubstr("bitwise identical"));
   EXPECT_THAT(replay(second, "--until 15").output, HasSubstr("bitwise identical"));
+  const std::vector<result::VehicleDescription> cars =
+      record::read_run_folder(second).description.vehicles;
+  EXPECT_TRUE(cars.front().route);
+  EXPECT_FALSE(cars.back().route) << "no longer that of the scenario";
   const test::Outcome result = test::run_program("summarize --run " + second.string());
   EXPECT_EQ(result.exit_code, 0) << result.output;
   const test::Outcome compared =
