@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
@@ -150,6 +151,17 @@ std::vector<KeptFork> kept_forks(const fs::path& run_folder) {
   }
   file.check_no_unknown_keys();
   return forks;
+}
+
+void omit_changed_routes(std::span<const KeptFork> forks, result::RunDescription& description) {
+  for (result::VehicleDescription& vehicle : description.vehicles) {
+    const std::string change = fmt::format("route={}:", vehicle.id.value);
+    const auto changes_it = [&](const KeptFork& fork) {
+      return std::ranges::any_of(fork.set,
+                                 [&](const std::string& text) { return text.starts_with(change); });
+    };
+    if (std::ranges::any_of(forks, changes_it)) vehicle.route.reset();
+  }
 }
 
 std::string forks_yaml(const std::vector<KeptFork>& forks) {

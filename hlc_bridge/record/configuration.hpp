@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/result/run_record.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace hlc::record {
@@ -52,6 +54,10 @@ struct KeptFork {
 /// In their order in the file. @throws std::invalid_argument naming file, line, key, value and
 /// bound
 [[nodiscard]] std::vector<KeptFork> kept_forks(const std::filesystem::path& run_folder);
+
+/// Of vehicles that follow another route from a fork on, the description has no route then: no
+/// numbers along the one of the scenario would mean anything.
+void omit_changed_routes(std::span<const KeptFork> forks, result::RunDescription& description);
 
 /// The text of such a file. @pre not empty
 [[nodiscard]] std::string forks_yaml(const std::vector<KeptFork>& forks);

@@ -34,6 +34,7 @@ RunFolder read_run_folder(const fs::path& folder, const RunChoices& given) {
   run.choices = choices_of_run(folder, given);
   run.scenario = scenario::read_scenario(run.choices.scenario);
   run.description = result::describe(run.scenario, run.choices.noise_seed);
+  omit_changed_routes(kept_forks(folder), run.description);
   try {
     result::check_run(run.facts, run.description);
   } catch (const std::runtime_error& error) {

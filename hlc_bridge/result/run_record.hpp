@@ -21,8 +21,9 @@ namespace hlc::result {
 struct VehicleDescription {
   VehicleId id;
   std::string name;
-  std::optional<road::ReferencePath> route;  ///< centre line; none in a scenario without lanes
-  Footprint footprint;                       ///< without margin
+  std::optional<road::ReferencePath>
+      route;            ///< centre line; none without lanes, or if a fork changed it
+  Footprint footprint;  ///< without margin
 };
 
 /// What was driven: the scenario, as needed for the result.

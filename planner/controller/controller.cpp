@@ -67,26 +67,6 @@ Controller::Controller(ControllerOptions options, PreparedSubgraph on,
   if (options_.conflicts) authority_.emplace(options_.conflicts);
 }
 
-void Controller::set_max_expansions(std::size_t max_expansions) {
-  options_.search.max_expansions = max_expansions;
-  search_.set_max_expansions(max_expansions);
-}
-
-void Controller::coordinate_by(const coordination::PriorityRule& plans_before,
-                               const CoordinationRule& rule) {
-  options_.strategies.plans_before = plans_before;
-  options_.strategies.coordination = rule;
-}
-
-void Controller::switch_to(const PreparedSubgraph& next) {
-  search_.switch_to(next, options_.search, last_step());
-  drivable_area_.note_switch();
-}
-
-void Controller::switch_to(std::shared_ptr<const automaton::Subgraph> next) {
-  switch_to(prepare_subgraph(std::move(next), options_.horizon_steps, options_.search));
-}
-
 coordination::Report Controller::stand_by(const Observation& observation) {
   step_ = Step{};
   step_.observation = observation;

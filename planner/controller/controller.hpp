@@ -80,6 +80,21 @@ class Controller {
   /// same. Not in the middle of a step.
   void coordinate_by(const coordination::PriorityRule& plans_before, const CoordinationRule& rule);
 
+  /// Follows another route from the next step on, from its place there (see `placement`). Not in
+  /// the middle of a step. The plan in force stays, and is the fallback as always: where no plan
+  /// leads on along the route, the vehicle drives that one to its end, and stands and reports it if
+  /// it cannot get onto the route from there. Others can no longer plan for it.
+  /// @pre a plan is in force; the route has a number in ControllerOptions::conflicts, if there are
+  void change_route(road::DrivableRoute next);
+
+  /// From the next step on something that is no vehicle stands there for good: no new plan meets
+  /// it, and with right of way no authority reaches into it. All controllers of a run need the same
+  /// ones. Not in the middle of a step.
+  void add_obstacle(const ConvexPolygon& area_m) { standing_m_.push_back(area_m); }
+  /// Whether the vehicle will meet the area if no other plan comes into force. Not in the middle of
+  /// a step. @pre a plan is in force
+  [[nodiscard]] bool will_meet(const ConvexPolygon& area_m) const;
+
   /// Plans on another subgraph from the next step on, of the same automaton or of one that differs
   /// from it in its maneuvers alone. Not in the middle of a step. The plan in force stays, even if
   /// parts of it are disabled now, and is the fallback as always: see Subgraph for the rule. Where
@@ -177,7 +192,7 @@ class Controller {
   [[nodiscard]] const std::vector<road::DrivableRoute>& routes() const { return tracker_.routes(); }
   /// The selected route; before the first measurement the first of all.
   [[nodiscard]] const road::DrivableRoute& route() const { return tracker_.route(); }
-  /// Placement on the route in the last `stand_by` with a measurement.
+  /// Placement on the route in the last `stand_by` with a measurement, or in `change_route`.
   [[nodiscard]] const std::optional<road::Placement>& placement() const {
     return tracker_.placement();
   }
@@ -294,6 +309,7 @@ class Controller {
   RouteTracker tracker_;
   DrivableArea drivable_area_;
   Neighbours neighbours_;
+  std::vector<ConvexPolygon> standing_m_;  ///< obstacles that are no vehicles
   std::optional<PlanInForce> in_force_;
   std::optional<Authority> authority_;  ///< none: no right of way
   bool minimal_risk_stop_{false};

@@ -49,6 +49,7 @@ void Controller::extend_authority(SharedStep& shared) {
   if (!authority_) return;
   const automaton::UniversalAutomaton& automaton = subgraph().automaton();
   std::vector<right_of_way::Blocked> blocked;
+  for (const ConvexPolygon& area_m : standing_m_) blocked.push_back({std::nullopt, area_m});
   std::vector<const coordination::Traffic*> holders;
   for (const coordination::Traffic* traffic : neighbours_.received()) {
     if (traffic->claim && traffic->claim->route < options_.conflicts->num_routes()) {

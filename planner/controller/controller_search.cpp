@@ -17,13 +17,18 @@ constexpr double kLeastGain_m2 = 1e-9;
 }  // namespace
 
 search::HorizonProblem Controller::posed_alone(double end_s_m) const {
-  return problem_in(entry_area() ? *entry_area() : route().corridor, end_s_m);
+  search::HorizonProblem problem =
+      problem_in(entry_area() ? *entry_area() : route().corridor, end_s_m);
+  if (!standing_m_.empty()) problem.obstacles_m.assign(problem.horizon_steps(), standing_m_);
+  return problem;
 }
 
 search::HorizonProblem Controller::pose_problem(CoupledObstacleRule rule) const {
   search::HorizonProblem problem =
       posed_alone(authority_ ? authority_->end_s_m(tracker_.s_m().value()) : kNoEnd_m);
   problem.obstacles_m = obstacles_m(rule);
+  for (auto& areas_m : problem.obstacles_m)
+    std::ranges::copy(standing_m_, std::back_inserter(areas_m));
   if (authority_) {
     const ConvexPolygon bar_m =
         authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint);

@@ -38,6 +38,11 @@ class DrivableArea {
 
   /// The vehicle stands at its measured pose, and the area is to be searched from there.
   void depart() { is_departing_ = true; }
+  /// The vehicle follows another route: an area that led into the former one counts no longer.
+  void change_route() {
+    entry_ = {};
+    is_departing_ = true;
+  }
   /// The controller plans on another subgraph, with which the vehicle may get into its lanes.
   void note_switch() { is_departing_ = is_departing_ || !entry_.is_possible; }
 

@@ -61,6 +61,7 @@ bool Controller::resume(const coordination::Traffic& traffic, const Controller& 
   drivable_area_.resume(input.area, route());
   neighbours_ = receiver.neighbours_.in_place_of(options_.vehicle, receiver.step_.traffic);
   if (authority_) authority_->resume(*traffic.claim, options_.vehicle, *receiver.authority_);
+  standing_m_ = receiver.standing_m_;
   take_coupling(receiver.coupling());
   return true;
 }

@@ -64,7 +64,8 @@ class Grants {
         return intersects(map_.area_m(route, cell), one.area_m);
       };
       const bool is_named = !vehicles.empty() && vehicles.back() == one.vehicle;
-      if (!is_named && std::ranges::any_of(next, blocks)) vehicles.push_back(one.vehicle);
+      if (!one.vehicle || is_named || std::ranges::none_of(next, blocks)) continue;
+      vehicles.push_back(*one.vehicle);
     }
     return vehicles;
   }

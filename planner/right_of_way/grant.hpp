@@ -17,9 +17,10 @@ struct Holder {
   friend bool operator==(const Holder&, const Holder&) = default;
 };
 
-/// An area of a vehicle that holds no cells: off the road, or without a controller.
+/// An area of a vehicle that holds no cells: off the road, or without a controller; or of an
+/// obstacle.
 struct Blocked {
-  VehicleId vehicle;
+  std::optional<VehicleId> vehicle;  ///< none: an obstacle that is no vehicle
   ConvexPolygon area_m;
   friend bool operator==(const Blocked&, const Blocked&) = default;
 };

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/record/configuration.hpp"
 #include "hlc_bridge/record/program.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
 #include "hlc_bridge/result/first_difference.hpp"
@@ -84,8 +85,11 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
     std::cout << "the fork is the same as the run: trace_sha256 "
               << hlc::result::trace_sha256(fork_rows) << "\n\n";
   }
+  hlc::result::RunDescription description = recorded.description;
+  const hlc::record::KeptFork fork{.from = *choices.from, .set = choices.set};
+  hlc::record::omit_changed_routes({&fork, 1}, description);
   hlc::result::RunSummary summary =
-      hlc::result::summarize(recorded.description, experiment.facts, rows, experiment.drives);
+      hlc::result::summarize(description, experiment.facts, rows, experiment.drives);
   summary.revision = hlc::program_revision();
   summary.host = hlc::record::this_host();
   std::cout << hlc::result::summary_table(summary);

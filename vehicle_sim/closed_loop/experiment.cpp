@@ -1,18 +1,12 @@
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
-#include <memory>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "hlc_bridge/hlc/hlc_core.hpp"
 #include "hlc_bridge/hlc/observation.hpp"
@@ -22,25 +16,14 @@
 #include "hlc_bridge/middleware/state_buffer.hpp"
 #include "planner/common/demand.hpp"
 #include "planner/controller/joint_step.hpp"
-#include "planner/coordination/priority.hpp"
-#include "planner/policy/prepared_choice.hpp"
 #include "planner/policy/subgraph_selector.hpp"
+#include "vehicle_sim/closed_loop/applied_forks.hpp"
+#include "vehicle_sim/closed_loop/member.hpp"
 #include "vehicle_sim/closed_loop/stamps_of.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 namespace hlc::closed_loop {
 namespace {
-
-/// A vehicle with its controller.
-struct Member {
-  std::uint8_t id;
-  simulated_vehicle::SimulatedVehicle vehicle;
-  high_level_controller::HlcCore hlc;
-  controller::ControlLoop loop;  ///< over the controller of `hlc`
-  policy::SubgraphSelector choice;
-  bool is_stop_requested{};
-  bool has_left{};
-};
 
 lab_control::LabRunSettings settings_of(const scenario::Scenario& scenario, std::uint64_t steps) {
   lab_control::LabRunSettings settings;
@@ -64,7 +47,6 @@ class Lab {
       : settings_(settings_of(scenario, options.steps)),
         run_(settings_),
         rules_(options.rules),
-        forks_(options.forks),
         after_step_(options.after_step),
         wall_clock_(or_zero(options.clocks.wall)),
         cpu_clock_(or_zero(options.clocks.cpu)) {
@@ -89,8 +71,7 @@ class Lab {
     }
     std::ranges::sort(members_, scenario.profile.strategies.plans_before,
                       [](const Member& member) { return VehicleId{member.id}; });
-    std::ranges::stable_sort(forks_, {}, &Fork::from);
-    prepare_requests();
+    forks_.emplace(options.forks, scenario, members_);
   }
 
   Experiment drive() {
@@ -141,7 +122,7 @@ class Lab {
     } else {
       const Nanoseconds from = wall_clock_();
       for (Member& member : members_) tick(member, t);
-      for (const VehicleId gone : gone_) {
+      for (const VehicleId gone : forks_->gone()) {
         run_.ready({.source_id = vehicle_name(gone.value), .next_start = t + kVehiclePeriod});
       }
       experiment_.wall.vehicles_s += seconds_since(from);
@@ -186,88 +167,14 @@ class Lab {
       member.choice.end_step(member.hlc.controller(), reports[i].report);
     }
     // Lab control ends a run in logical time when a process is gone.
-    for (const VehicleId gone : gone_) run_.report({.report = {.vehicle = gone, .step = step}});
+    for (const VehicleId gone : forks_->gone())
+      run_.report({.report = {.vehicle = gone, .step = step}});
   }
 
-  // ---- Forks
-
-  void prepare_requests() {
-    std::map<VehicleId, SubgraphRequest> so_far;
-    for (const Fork& fork : forks_) {
-      std::set<VehicleId> changed;
-      for (const Fork::Change& change : fork.changes) {
-        if (const auto* const labels = std::get_if<Fork::Labels>(&change)) {
-          so_far[labels->vehicle].labels = labels->labels;
-          changed.insert(labels->vehicle);
-        } else if (const auto* const speed = std::get_if<Fork::MaxSpeed>(&change)) {
-          so_far[speed->vehicle].max_speed_mps = speed->max_speed_mps;
-          changed.insert(speed->vehicle);
-        }
-      }
-      for (const VehicleId vehicle : changed) {
-        const Member& member = member_of(vehicle);
-        const controller::ControllerOptions& options = member.hlc.controller().options();
-        try {
-          requests_[{fork.from, vehicle}] = std::make_shared<const policy::PreparedChoice>(
-              member.choice.base(), so_far.at(vehicle), member.choice.limits_mps(),
-              options.horizon_steps, options.search);
-        } catch (const std::invalid_argument& error) {
-          throw std::invalid_argument(fmt::format("--set of vehicle {} from step {}: {}",
-                                                  vehicle.value, fork.from, error.what()));
-        }
-      }
-    }
-  }
-
-  /// @pre it is not gone
-  Member& member_of(VehicleId vehicle) {
-    const auto member = std::ranges::find(members_, vehicle.value, &Member::id);
-    HLC_DEMAND(member != members_.end(), vehicle.value);
-    return *member;
-  }
-
-  /// Applies what changes from this step on. @pre the experiment has begun
+  /// @pre the experiment has begun
   void apply_forks(StepIndex step) {
-    for (const Fork& fork : forks_) {
-      if (start_->value + fork.from != step.value) continue;
-      for (const Fork::Change& change : fork.changes) {
-        std::visit([&](const auto& one) { apply(one, step); }, change);
-      }
-    }
-    for (const auto& [at, request] : requests_) {
-      if (start_->value + at.first != step.value || gone_.contains(at.second)) continue;
-      member_of(at.second).choice.ask(request);
-    }
+    forks_->apply(step.value - start_->value, step, members_, rules_);
   }
-
-  void apply(const Fork::Priorities& change, StepIndex /*step*/) {
-    const coordination::PriorityRule plans_before(change.first);
-    for (Member& member : members_) {
-      controller::Controller& controller = member.hlc.controller();
-      controller.coordinate_by(plans_before, controller.options().strategies.coordination);
-    }
-    std::ranges::sort(members_, std::cref(plans_before),
-                      [](const Member& member) { return VehicleId{member.id}; });
-  }
-  void apply(const Fork::Coordination& change, StepIndex /*step*/) {
-    for (Member& member : members_) {
-      controller::Controller& controller = member.hlc.controller();
-      controller.coordinate_by(controller.options().strategies.plans_before, change.rule);
-    }
-  }
-  void apply(const Fork::Without& change, StepIndex /*step*/) {
-    std::erase_if(members_, [&](const Member& one) { return one.id == change.vehicle.value; });
-    gone_.insert(change.vehicle);
-  }
-  void apply(const Fork::Lost& change, StepIndex step) {
-    rules_.is_lost = [former = rules_.is_lost, change, step](const controller::Delivery& one) {
-      const bool is_now = one.step >= step && one.step.value < step.value + change.steps;
-      return (is_now && one.from == change.from && one.to == change.to) || (former && former(one));
-    };
-  }
-  /// In requests_.
-  void apply(const Fork::Labels& /*change*/, StepIndex /*step*/) {}
-  void apply(const Fork::MaxSpeed& /*change*/, StepIndex /*step*/) {}
 
   /// In the order of the members.
   std::vector<ReportRecord> step_controllers(const VehicleStateList& list) {
@@ -341,7 +248,7 @@ class Lab {
       member.vehicle.brake();
       member.is_stop_requested = true;
     }
-    for (const VehicleId gone : gone_) {
+    for (const VehicleId gone : forks_->gone()) {
       alive_.erase(vehicle_name(gone.value));
       lost_.insert(vehicle_name(gone.value));
     }
@@ -364,14 +271,11 @@ class Lab {
   lab_control::LabRunSettings settings_;
   lab_control::LogicalRun run_;
   controller::JointStepRules rules_;
-  std::vector<Fork> forks_;
   std::function<void(const controller::Controller&)> after_step_;
-  std::map<std::pair<std::uint64_t, VehicleId>, std::shared_ptr<const policy::PreparedChoice>>
-      requests_;  ///< by the step of the experiment from which they hold, with all changes so far
-  std::set<VehicleId> gone_;
   std::function<Nanoseconds()> wall_clock_;
   std::function<Nanoseconds()> cpu_clock_;
   std::vector<Member> members_;  ///< in the order of priorities
+  std::optional<AppliedForks> forks_;
   middleware::StateBuffer states_;
   std::optional<StepIndex> start_;  ///< first step of the experiment, once it has begun
   std::set<std::string> alive_;

@@ -63,8 +63,9 @@ struct Experiment {
 /// All middlewares receive the same, so one buffer represents all of theirs.
 ///
 /// @pre the automaton's step is a multiple of the vehicles' tick (20 ms)
-/// @throws std::invalid_argument with one line, before the run begins: maneuvers or a speed of a
-/// fork that the automaton has no subgraph for
+/// @throws std::invalid_argument with one line: maneuvers or a speed of a fork that the automaton
+/// has no subgraph for (before the run begins); an obstacle in the way of a vehicle, or a route
+/// that the vehicle does not fit (in the fork's step)
 [[nodiscard]] Experiment drive_experiment(const scenario::Scenario& scenario,
                                           const ExperimentOptions& options);
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -18,6 +20,9 @@ namespace hlc::closed_loop {
 namespace {
 
 constexpr std::uint64_t kMostLostSteps = 100'000;
+/// Far beyond any map [m], and any turn [rad].
+constexpr double kLargestObstacle = 1000.0;
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 template <class Number>
 std::optional<Number> number_in(const std::string& text) {
@@ -44,7 +49,9 @@ class ChangeText {
     if (key_ == "speed") return max_speed();
     if (key_ == "without") return Fork::Without{vehicle(value_)};
     if (key_ == "lost") return lost();
-    refuse("priorities=, coordination=, criteria=, speed=, without= or lost=");
+    if (key_ == "obstacle") return obstacle();
+    if (key_ == "route") return route();
+    refuse("priorities=, coordination=, criteria=, speed=, without=, lost=, obstacle= or route=");
   }
 
  private:
@@ -116,6 +123,32 @@ class ChangeText {
     return result;
   }
 
+  [[nodiscard]] Fork::Obstacle obstacle() const {
+    const std::vector<std::string> texts = split(value_, ',');
+    if (texts.size() != 4 && texts.size() != 5) {
+      refuse("obstacle=X,Y,LENGTH,WIDTH or obstacle=X,Y,LENGTH,WIDTH,HEADING in m and rad");
+    }
+    std::vector<double> numbers;
+    for (const std::string& text : texts) {
+      numbers.push_back(number_in<double>(text).value_or(kNoNumber));
+      if (std::abs(numbers.back()) <= kLargestObstacle) continue;  // not so if it is no number
+      refuse(fmt::format("an obstacle with numbers of at most {}", kLargestObstacle));
+    }
+    if (numbers[2] <= 0.0 || numbers[3] <= 0.0) refuse("an obstacle with length and width above 0");
+    return {.pose = {numbers[0], numbers[1], texts.size() == 5 ? numbers[4] : 0.0},
+            .length_m = numbers[2],
+            .width_m = numbers[3]};
+  }
+
+  [[nodiscard]] Fork::Route route() const {
+    const auto [id, name] = halves(':', "route=VEHICLE:ROUTE");
+    const Fork::Route result{.vehicle = vehicle(id), .name = name};
+    std::vector<std::string> names;
+    for (const road::DrivableRoute& one : scenario_.routes) names.push_back(one.name);
+    if (std::ranges::count(names, name) > 0) return result;
+    refuse(fmt::format("a route of the scenario: {}", fmt::join(names, ", ")));
+  }
+
   const std::string& text_;
   const scenario::Scenario& scenario_;
   std::string key_;
@@ -127,6 +160,7 @@ std::optional<VehicleId> vehicle_of(const Fork::Change& change) {
   if (const auto* const one = std::get_if<Fork::Labels>(&change)) return one->vehicle;
   if (const auto* const one = std::get_if<Fork::MaxSpeed>(&change)) return one->vehicle;
   if (const auto* const one = std::get_if<Fork::Without>(&change)) return one->vehicle;
+  if (const auto* const one = std::get_if<Fork::Route>(&change)) return one->vehicle;
   return std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 
 #include "planner/automaton/subgraph_request.hpp"
 #include "planner/controller/controller_options.hpp"
+#include "planner/geometry/pose.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace hlc::closed_loop {
@@ -47,7 +48,21 @@ struct Fork {
     std::uint64_t steps{1};
     friend bool operator==(const Lost&, const Lost&) = default;
   };
-  using Change = std::variant<Priorities, Coordination, Labels, MaxSpeed, Without, Lost>;
+  /// A rectangle that stands there for good; all controllers know of it.
+  struct Obstacle {
+    Pose pose;          ///< of its centre
+    double length_m{};  ///< along the heading
+    double width_m{};
+    friend bool operator==(const Obstacle&, const Obstacle&) = default;
+  };
+  /// One of the scenario's routes instead of the vehicle's.
+  struct Route {
+    VehicleId vehicle;
+    std::string name;
+    friend bool operator==(const Route&, const Route&) = default;
+  };
+  using Change =
+      std::variant<Priorities, Coordination, Labels, MaxSpeed, Without, Lost, Obstacle, Route>;
 
   std::uint64_t from{};  ///< step of the experiment, from 0
   std::vector<Change> changes;
@@ -60,7 +75,11 @@ inline constexpr char kChangeForms[] =
     "criteria=3:J2+J3: maneuvers on which vehicle 3 plans\n"
     "speed=3:0.4: most that vehicle 3 may drive [m/s]\n"
     "without=3: vehicle 3 is gone\n"
-    "lost=1>3:5: what vehicle 1 sends to 3 is lost for 5 steps (without a number: 1)";
+    "lost=1>3:5: what vehicle 1 sends to 3 is lost for 5 steps (without a number: 1)\n"
+    "obstacle=2.0,1.5,0.3,0.1,0.8: a rectangle stands at x = 2.0 m, y = 1.5 m, 0.3 m long and 0.1 "
+    "m "
+    "wide, turned by 0.8 rad (without: 0)\n"
+    "route=3:blue: vehicle 3 drives on along the scenario's route blue";
 
 /// @throws std::invalid_argument with one line: the text and what is allowed; vehicles are the
 /// scenario's

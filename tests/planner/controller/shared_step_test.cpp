@@ -66,9 +66,10 @@ TEST(SharedStep, GrantsAreThoseOfWhatIsHeldAndBlocked) {
   const std::vector<right_of_way::Holder> alone{{{1}, {.place_m = 1.0}}};
   const std::vector<right_of_way::Holder> both{{{1}, {.place_m = 0.5}}, {{2}, {.place_m = 1.2}}};
   const std::vector<right_of_way::Holder> moved{{{1}, {.place_m = 0.5}}, {{2}, {.place_m = 1.3}}};
-  const std::vector<right_of_way::Blocked> here{{{3}, footprint_area({0.2, 0.2}, {1.6, 0.0, 0.0})}};
+  const std::vector<right_of_way::Blocked> here{
+      {VehicleId{3}, footprint_area({0.2, 0.2}, {1.6, 0.0, 0.0})}};
   const std::vector<right_of_way::Blocked> there{
-      {{3}, footprint_area({0.2, 0.2}, {1.7, 0.0, 0.0})}};
+      {VehicleId{3}, footprint_area({0.2, 0.2}, {1.7, 0.0, 0.0})}};
   SharedStep shared;
   std::vector<std::vector<double>> seen;
   const auto expect_granted = [&](const right_of_way::ConflictMap& of, const auto& holders,

@@ -250,6 +250,16 @@ TEST_F(BlockedRoad, BeforeAWallItDoesNotWait) {
   EXPECT_THAT(step_alone().waiting.vehicles, IsEmpty());
 }
 
+// Without car 2 it would stand there just the same.
+TEST_F(BlockedRoad, BeforeAnObstacleItDoesNotWait) {
+  start();
+  one_->add_obstacle(wall(0.15));
+  const coordination::Report report = step();
+  EXPECT_EQ(report.status, StepStatus::kPlanned);
+  EXPECT_THAT(report.waiting.vehicles, IsEmpty());
+  EXPECT_THAT(step_alone().waiting.vehicles, IsEmpty());
+}
+
 TEST_F(BlockedRoad, ExaminingItChangesNoPlan) {
   start();
   Controller not_examined = *one_;

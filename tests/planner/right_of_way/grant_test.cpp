@@ -125,7 +125,7 @@ std::vector<Blocked> random_blocked(std::mt19937_64& random) {
   std::uniform_real_distribution<double> anywhere(0.0, 4.0);
   for (std::uint8_t i = 101; i <= 108; ++i) {
     const Pose pose{anywhere(random), anywhere(random), anywhere(random)};
-    blocked.push_back({{i}, footprint_area(kCar.footprint, pose)});
+    blocked.push_back({VehicleId{i}, footprint_area(kCar.footprint, pose)});
   }
   return blocked;
 }
@@ -165,6 +165,15 @@ TEST(Grant, WhoBlocksTheNextCellsIsNamed) {
     }
   });
   EXPECT_GT(named, 10U);
+}
+
+TEST(Grant, AnObstacleThatIsNoVehicleEndsAuthoritiesAndIsNobodyWhoWithholds) {
+  const ConflictMap& map = *lab_cars().conflicts;
+  const Holder alone{.vehicle = {1}, .claim = {}};
+  const Blocked obstacle{std::nullopt, map.area_m(0, 10)};
+  const std::vector<Holder> after = granted(map, {alone}, std::span(&obstacle, 1));
+  EXPECT_LT(after.front().claim.ahead_m, granted(map, {alone}).front().claim.ahead_m);
+  EXPECT_TRUE(withheld_by(map, after, std::span(&obstacle, 1), 0).empty());
 }
 
 TEST(Grant, TheOrderOfTheInputDoesNotMatter) {

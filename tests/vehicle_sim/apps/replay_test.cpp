@@ -9,6 +9,7 @@
 #include <regex>
 #include <string>
 
+#include "hlc_bridge/record/run_folder.hpp"
 #include "planner/common/text_file.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
@@ -75,17 +76,26 @@ TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
   const fs::path fork = folder_.path() / "one_from_10";
   EXPECT_THAT(replay(fork, "").output, HasSubstr("bitwise identical"));
   const fs::path second = folder_.path() / "second";
-  const test::Outcome forked = replay(fork, "--from 20 --set without=2 --out " + second.string());
+  const test::Outcome forked =
+      replay(fork,
+             "--from 20 --set without=2 --set obstacle=0.1,0.1,0.1,0.1,0.5 "
+             "--set route=3:green --out " +
+                 second.string());
   ASSERT_EQ(forked.exit_code, 0) << forked.output;
   EXPECT_THAT(forked.output, HasSubstr("at step 20 (4.0 s)"));
   EXPECT_THAT(replay(second, "").output, HasSubstr("bitwise identical"));
   EXPECT_THAT(replay(second, "--until 15").output, HasSubstr("bitwise identical"));
+  const std::vector<result::VehicleDescription> cars =
+      record::read_run_folder(second).description.vehicles;
+  EXPECT_TRUE(cars.front().route);
+  EXPECT_FALSE(cars.back().route) << "no longer that of the scenario";
   const test::Outcome result = test::run_program("summarize --run " + second.string());
   EXPECT_EQ(result.exit_code, 0) << result.output;
   const test::Outcome compared =
       test::run_program("compare " + run().string() + " " + second.string());
   EXPECT_THAT(compared.output, HasSubstr("forks: null and from step 10 priorities=3,2 speed=1:0.5, "
-                                         "from step 20 without=2"));
+                                         "from step 20 without=2 obstacle=0.1,0.1,0.1,0.1,0.5 "
+                                         "route=3:green"));
 }
 
 TEST_F(Replay, OfARunThatEndedEarlyComparesWhatIsRecorded) {
@@ -134,6 +144,8 @@ TEST_F(Replay, RefusesWhatItCannotDriveInOneLineAndLeavesNoFolder) {
        {Bad{"--from 40", "must be less than the run's 40 steps"},
         Bad{"--from 3 --set without=9", "1, 2, 3"}, Bad{"--set without=1", "--from"},
         Bad{"--from 3 --set criteria=1:J9", "J9"}, Bad{"--from 3 --until 2", "2 steps"},
+        Bad{"--from 3 --set obstacle=2,2,10,10", "must be clear of vehicle 1"},
+        Bad{"--from 3 --set route=1:blue", "a route that vehicle 1 fits there"},
         Bad{"--out /tmp/x", "--from"}, Bad{"--until 0", "--until"},
         Bad{"--from 3 --out " + run().string(), "new or empty"},
         Bad{"--from 3 --out /proc/no/such", "--out"}, Bad{"--speed 3", "--speed"}}) {

@@ -196,6 +196,12 @@ TEST(ChangeText, IsReadAsWritten) {
             Fork::Change(Fork::MaxSpeed{.vehicle = {2}, .max_speed_mps = 0.4}));
   EXPECT_EQ(read("without=3"), Fork::Change(Fork::Without{{3}}));
   EXPECT_EQ(read("lost=1>2"), Fork::Change(Fork::Lost{.from = {1}, .to = {2}, .steps = 1}));
+  EXPECT_EQ(
+      read("obstacle=1.5,2,0.3,0.1,-0.5"),
+      Fork::Change(Fork::Obstacle{.pose = {1.5, 2.0, -0.5}, .length_m = 0.3, .width_m = 0.1}));
+  EXPECT_EQ(read("obstacle=1.5,2,0.3,0.1"),
+            Fork::Change(Fork::Obstacle{.pose = {1.5, 2.0, 0.0}, .length_m = 0.3, .width_m = 0.1}));
+  EXPECT_EQ(read("route=2:red"), Fork::Change(Fork::Route{.vehicle = {2}, .name = "red"}));
   EXPECT_EQ(read("lost=1>2:7"), Fork::Change(Fork::Lost{.from = {1}, .to = {2}, .steps = 7}));
 }
 
@@ -219,16 +225,22 @@ TEST_P(BadChangeText, IsRefusedInOneLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Fork, BadChangeText,
-    testing::Values(BadChange{"", "priorities="}, BadChange{"speed", "speed="},
-                    BadChange{"colour=red", "lost="}, BadChange{"without=4", "1, 2, 3"},
-                    BadChange{"without=", "1, 2, 3"}, BadChange{"without=257", "1, 2, 3"},
-                    BadChange{"priorities=1,1", "twice"}, BadChange{"priorities=1,,2", "1, 2, 3"},
-                    BadChange{"coordination=none", "cooperative"}, BadChange{"speed=1", "m/s"},
-                    BadChange{"speed=1:0", "above 0"}, BadChange{"speed=1:nan", "above 0"},
-                    BadChange{"criteria=J2", "VEHICLE:CRITERION"},
-                    BadChange{"lost=1", "VEHICLE>VEHICLE"}, BadChange{"lost=1>1", "two vehicles"},
-                    BadChange{"criteria=1:", "CRITERION"}, BadChange{"lost=1>2:0", "1 ..."},
-                    BadChange{"lost=1>2:3:4", "1 ..."}, BadChange{"lost=1>2\n:3", "1, 2, 3"}));
+    testing::Values(
+        BadChange{"", "priorities="}, BadChange{"speed", "speed="},
+        BadChange{"colour=red", "lost="}, BadChange{"without=4", "1, 2, 3"},
+        BadChange{"without=", "1, 2, 3"}, BadChange{"without=257", "1, 2, 3"},
+        BadChange{"priorities=1,1", "twice"}, BadChange{"priorities=1,,2", "1, 2, 3"},
+        BadChange{"coordination=none", "cooperative"}, BadChange{"speed=1", "m/s"},
+        BadChange{"speed=1:0", "above 0"}, BadChange{"speed=1:nan", "above 0"},
+        BadChange{"criteria=J2", "VEHICLE:CRITERION"}, BadChange{"lost=1", "VEHICLE>VEHICLE"},
+        BadChange{"lost=1>1", "two vehicles"}, BadChange{"criteria=1:", "CRITERION"},
+        BadChange{"lost=1>2:0", "1 ..."}, BadChange{"lost=1>2:3:4", "1 ..."},
+        BadChange{"route=1", "VEHICLE:ROUTE"}, BadChange{"route=1:ring", "blue, green, red"},
+        BadChange{"route=9:red", "1, 2, 3"}, BadChange{"obstacle=1,2,0.3", "WIDTH"},
+        BadChange{"obstacle=1,2,0.3,0.1,0,0", "WIDTH"}, BadChange{"obstacle=1,2,0.3,0", "above 0"},
+        BadChange{"obstacle=1,nan,0.3,0.1", "at most 1000"},
+        BadChange{"obstacle=1,2,0.3,1e9", "at most 1000"},
+        BadChange{"obstacle=1,2,x,0.1", "at most 1000"}, BadChange{"lost=1>2\n:3", "1, 2, 3"}));
 
 TEST(Fork, OneThatCannotBeDrivenIsRefused) {
   const auto refusal = [](const std::vector<Fork>& forks) -> std::string {
