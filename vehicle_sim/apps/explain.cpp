@@ -17,14 +17,10 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
 #include "planner/apps/flags.hpp"
-#include "planner/controller/controller.hpp"
-#include "planner/plot/search_words.hpp"
 #include "planner/scenario/problem_dump.hpp"
-#include "planner/search/alternatives.hpp"
-#include "planner/search/search_engine.hpp"
-#include "planner/search/search_options.hpp"
 #include "vehicle_sim/apps/explanation.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
+#include "vehicle_sim/apps/step_answers.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace {
@@ -47,54 +43,10 @@ const hlc::coordination::Report* report_of(const Rows& rows, const Choices& choi
   return found == rows.end() ? nullptr : &found->record.report;
 }
 
-/// Way that the plan in force leads from t(k+1) on.
-double ahead_m(const hlc::controller::Controller& controller) {
-  const hlc::coordination::Plan& plan = controller.plan_in_force();
-  double sum_m = 0.0;
-  for (hlc::StepIndex step{controller.last_step().value + 1}; step < plan.end(); ++step.value) {
-    const hlc::Point next_m = plan.pose_at({step.value + 1}).position_m();
-    sum_m += (next_m - plan.pose_at(step).position_m()).norm();
-  }
-  return sum_m;
-}
-
-/// True if the plan in force consists of these maneuvers from t(k+1) on.
-bool is_in_force(const std::vector<const hlc::automaton::Maneuver*>& maneuvers,
-                 const hlc::controller::Controller& controller) {
-  hlc::StepIndex step = controller.last_step();
-  return std::ranges::all_of(maneuvers, [&](const hlc::automaton::Maneuver* maneuver) {
-    ++step.value;
-    return &controller.plan_in_force().maneuver_during(step) == maneuver;
-  });
-}
-
-/// What a new plan begins with, and the best plan with another first maneuver. None if the plan in
-/// force is not that of the step's last problem, or the cost-to-go is no bound.
-std::optional<hlc::apps::ExplainedStep::Choice> choice_of(
-    const hlc::controller::Controller& controller) {
-  const hlc::search::SearchOptions& options = controller.options().search;
-  if (controller.problems().empty() || !hlc::search::is_admissible(options.cost_to_go)) return {};
-  const hlc::search::HorizonProblem& problem = controller.problems().back();
-  const hlc::controller::PreparedSubgraph& on = controller.prepared_subgraph();
-  const hlc::search::SearchResult result =
-      hlc::search::make_search_engine(*on.subgraph, *on.reachable, options, on.tables)
-          ->search(problem);
-  if (result.maneuvers.empty() || !is_in_force(result.maneuvers, controller)) return {};
-  const std::vector<hlc::search::Alternative> others = hlc::search::alternatives_to(
-      result.maneuvers.front(), *on.subgraph, *on.reachable, options, problem);
-  hlc::apps::ExplainedStep::Choice choice{.first = hlc::plot::name_of(*result.maneuvers.front()),
-                                          .next_best = {}};
-  if (const hlc::search::Alternative* const second = runner_up(others)) {
-    choice.next_best = hlc::plot::name_of(*second->first);
-    choice.extra_m2 = second->best.cost - result.cost;
-  }
-  return choice;
-}
-
 struct Driven {
   Rows rows;
   hlc::apps::StepOutcome outcome;  ///< of the vehicle in the step
-  std::optional<hlc::apps::ExplainedStep::Choice> choice;
+  hlc::apps::StepAnswers answers;
 };
 
 /// Drives the run up to the step, and with some vehicles gone from the step on.
@@ -110,12 +62,14 @@ class Drives {
 
   /// @param dump  receives the planning problems; may be nullptr
   [[nodiscard]] Driven as_it_was(const hlc::scenario::ProblemDump* dump) const {
-    std::optional<hlc::apps::ExplainedStep::Choice> choice;
-    Driven driven = drive(options_, [&](const hlc::controller::Controller& controller) {
+    hlc::apps::StepAnswers answers;
+    Driven driven = drive(options_, [&](const hlc::controller::Controller& controller,
+                                        const hlc::policy::SubgraphSelector& chosen,
+                                        const hlc::coordination::Report& report) {
       if (dump != nullptr) dump->write(controller);
-      if (controller.has_plan()) choice = choice_of(controller);
+      answers = hlc::apps::answers_of(controller, chosen, report, run_.scenario.policy);
     });
-    driven.choice = std::move(choice);
+    driven.answers = std::move(answers);
     return driven;
   }
 
@@ -126,20 +80,22 @@ class Drives {
       fork.changes.emplace_back(hlc::closed_loop::Fork::Without{one});
     options.forks.push_back(std::move(fork));
     return {.gone = std::move(gone),
-            .outcome = drive(std::move(options), [](const auto&) {}).outcome};
+            .outcome = drive(std::move(options), [](const auto&...) {}).outcome};
   }
 
  private:
   /// @param look  at the vehicle's controller after the step
   [[nodiscard]] Driven drive(
       hlc::closed_loop::ExperimentOptions options,
-      const std::function<void(const hlc::controller::Controller&)>& look) const {
+      const decltype(hlc::closed_loop::ExperimentOptions::after_step)& look) const {
     Driven driven;
-    options.after_step = [&](const hlc::controller::Controller& controller) {
+    options.after_step = [&](const hlc::controller::Controller& controller,
+                             const hlc::policy::SubgraphSelector& chosen,
+                             const hlc::coordination::Report& report) {
       const std::uint64_t step = controller.last_step().value - *run_.facts.first_step;
       if (step != choices_.step || controller.options().vehicle.value != choices_.vehicle) return;
-      driven.outcome.ahead_m = controller.has_plan() ? ahead_m(controller) : 0.0;
-      look(controller);
+      driven.outcome.ahead_m = hlc::apps::ahead_m(controller);
+      look(controller, chosen, report);
     };
     const hlc::closed_loop::Experiment experiment =
         hlc::closed_loop::drive_experiment(run_.scenario, options);
@@ -206,8 +162,10 @@ int explain(const Choices& choices) {
                                      .step = choices.step,
                                      .step_s = run.description.step_s,
                                      .outcome = driven.outcome,
-                                     .others = others_in(driven.rows, choices)};
-  if (report.status == hlc::coordination::StepStatus::kPlanned) explained.choice = driven.choice;
+                                     .others = others_in(driven.rows, choices),
+                                     .choice = driven.answers.choice,
+                                     .limits = driven.answers.limits,
+                                     .alone = driven.answers.alone};
   const std::vector<VehicleId> may_matter = that_may_matter(report, explained.others);
   if (choices.step > 0 && !may_matter.empty()) {
     explained.without_all = drives.without(may_matter);

@@ -181,7 +181,7 @@ class Lab {
       reports[i].report = high_level_controller::with_answer(std::move(reports[i].report), answer);
       member.hlc.controller().note_causes(reports[i].report);
       report(reports[i]);
-      if (after_step_) after_step_(member.hlc.controller());
+      if (after_step_) after_step_(member.hlc.controller(), member.choice, reports[i].report);
       if (reports[i].report.status == coordination::StepStatus::kStandby) continue;
       member.choice.end_step(member.hlc.controller(), reports[i].report);
     }
@@ -365,7 +365,7 @@ class Lab {
   lab_control::LogicalRun run_;
   controller::JointStepRules rules_;
   std::vector<Fork> forks_;
-  std::function<void(const controller::Controller&)> after_step_;
+  decltype(ExperimentOptions::after_step) after_step_;
   std::map<std::pair<std::uint64_t, VehicleId>, std::shared_ptr<const policy::PreparedChoice>>
       requests_;  ///< by the step of the experiment from which they hold, with all changes so far
   std::set<VehicleId> gone_;
