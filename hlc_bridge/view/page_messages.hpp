@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/result/explanation.hpp"
 #include "hlc_bridge/result/run_record.hpp"
 #include "planner/road/lanelet_map.hpp"
 
@@ -18,6 +19,7 @@
 ///   the unit that `units` has for it. `names` and `sets` are tables of texts and of lists of
 ///   vehicles, into which columns point. `maneuver` is -1 if it is not known;
 /// * `drive`: states of one vehicle at equal times, without a gap;
+/// * `why`: explanations of one vehicle: `steps` is a list of [step, text], a text with line feeds;
 /// * `log`: lines;
 /// * `end`: in a run under way only, see live_messages.hpp.
 ///
@@ -35,6 +37,7 @@ struct FinishedRun {
   result::Drives drives;
   std::optional<road::LaneletMap> map;  ///< none: open ground
   std::vector<result::LoggedLine> log;
+  std::vector<result::Explanation> explanations;
   std::string time;      ///< kind of time, as text: "logical time"
   std::string revision;  ///< of the programs
   std::string fault;     ///< what was wrong with the drive; empty: nothing

@@ -100,7 +100,8 @@ bool Controller::make_room(const search::HorizonProblem& own) {
   std::vector<const coordination::OccupiedAreas*> desired;
   for (const VehicleId other : predecessors()) {
     const CoupledVehicle one = coupled_vehicle(other);
-    if (makes_room_for(one) && !step_.left_out.holds(other)) desired.push_back(&*one.prediction->desired);
+    if (makes_room_for(one) && !step_.left_out.holds(other))
+      desired.push_back(&*one.prediction->desired);
   }
   if (desired.empty()) return false;
   const auto is_found_beyond = [&](std::size_t from) {

@@ -14,10 +14,13 @@
 #include <utility>
 #include <vector>
 
+#include "hlc_bridge/apps/finished_run.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/record/explanation_file.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/scenario/problem_dump.hpp"
+#include "vehicle_sim/apps/explain_all.hpp"
 #include "vehicle_sim/apps/explanation.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
 #include "vehicle_sim/apps/step_answers.hpp"
@@ -32,6 +35,7 @@ struct Choices {
   std::filesystem::path run;
   std::uint8_t vehicle{};
   std::uint64_t step{};
+  bool all{};
   std::filesystem::path problems;
 };
 
@@ -124,16 +128,6 @@ void check_choices(const hlc::record::RunFolder& run, const Choices& choices) {
                   choices.step, choices.vehicle, run.rows.empty() ? 0 : run.rows.back().step));
 }
 
-/// Vehicles that had a report in the step, without the explained one.
-std::vector<VehicleId> others_in(const Rows& rows, const Choices& choices) {
-  std::vector<VehicleId> others;
-  for (const hlc::result::StepRecord& row : rows) {
-    const VehicleId vehicle = row.record.report.vehicle;
-    if (row.step == choices.step && vehicle.value != choices.vehicle) others.push_back(vehicle);
-  }
-  return others;
-}
-
 /// Those that may have changed the step: coupled, missing, waited for, or in the way of the plan.
 std::vector<VehicleId> that_may_matter(const hlc::coordination::Report& report,
                                        const std::vector<VehicleId>& others) {
@@ -145,8 +139,7 @@ std::vector<VehicleId> that_may_matter(const hlc::coordination::Report& report,
   return {found.begin(), found.end()};
 }
 
-int explain(const Choices& choices) {
-  const hlc::record::RunFolder run = hlc::record::read_run_folder(choices.run);
+int explain_step(const hlc::record::RunFolder& run, const Choices& choices) {
   check_choices(run, choices);
   const Drives drives(run, choices);
   std::optional<hlc::scenario::ProblemDump> dump;
@@ -156,16 +149,8 @@ int explain(const Choices& choices) {
   const Driven driven = drives.as_it_was(dump ? &*dump : nullptr);
   hlc::apps::check_same_until(choices.step + 1, run, driven.rows);
   const hlc::coordination::Report& report = driven.outcome.report;
-  const hlc::scenario::ScenarioVehicle& vehicle =
-      hlc::scenario::vehicle_of(run.scenario, report.vehicle);
-  hlc::apps::ExplainedStep explained{.name = vehicle.name,
-                                     .step = choices.step,
-                                     .step_s = run.description.step_s,
-                                     .outcome = driven.outcome,
-                                     .others = others_in(driven.rows, choices),
-                                     .choice = driven.answers.choice,
-                                     .limits = driven.answers.limits,
-                                     .alone = driven.answers.alone};
+  hlc::apps::ExplainedStep explained =
+      hlc::apps::explained_step(run, choices.step, driven.outcome, driven.answers);
   const std::vector<VehicleId> may_matter = that_may_matter(report, explained.others);
   if (choices.step > 0 && !may_matter.empty()) {
     explained.without_all = drives.without(may_matter);
@@ -175,28 +160,50 @@ int explain(const Choices& choices) {
   return hlc::kExitGood;
 }
 
+int explain(const Choices& choices) {
+  hlc::record::RunFolder run = hlc::record::read_run_folder(choices.run);
+  if (!choices.all) return explain_step(run, choices);
+  const std::size_t count = hlc::apps::explain_all(std::move(run));
+  std::cout << fmt::format("{} steps explained: {}\nthe run as a page: {}\n", count,
+                           hlc::record::explanations_file(choices.run).string(),
+                           hlc::apps::page_file(choices.run).string());
+  return hlc::kExitGood;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{
       "Why a vehicle did what it did in a step of a run of logical time: what it knew, what it "
-      "would have done alone, and without each of the others. Each answer is the run driven again "
-      "up to this step, without them from there on.",
+      "would have done alone, without each of the others, and without each limit of its plan: the "
+      "lane boundary, the end of its right of way, a zone, a request. Each answer without others "
+      "is the run driven again up to this step, without them from there on; each without a limit "
+      "is the step's problem searched again.",
       "explain"};
   Choices choices;
   app.add_option("RUN,--run", choices.run, "run folder")->required();
-  app.add_option("--vehicle", choices.vehicle, "id")
-      ->required()
-      ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
-  app.add_option("--step", choices.step, "from 0, as on the page and in steps.csv")
-      ->required()
-      ->check(hlc::apps::whole(0, 100000));
-  app.add_option("--problems", choices.problems,
-                 "folder for the step's planning problems, for plan_problem");
+  CLI::Option* const vehicle = app.add_option("--vehicle", choices.vehicle, "id")
+                                   ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
+  CLI::Option* const step =
+      app.add_option("--step", choices.step, "from 0, as on the page and in steps.csv")
+          ->check(hlc::apps::whole(0, 100000));
+  CLI::Option* const all = app.add_flag(
+      "--all", choices.all,
+      "instead: explains every step in which a vehicle begins to keep its plan, to stop, to wait "
+      "or "
+      "to miss others, by searches alone (the run is driven once; some seconds for 20 cars and 150 "
+      "steps), writes explanations.csv into the run folder and its run.html again with them");
+  CLI::Option* const problems = app.add_option(
+      "--problems", choices.problems, "folder for the step's planning problems, for plan_problem");
+  all->excludes(vehicle)->excludes(step)->excludes(problems);
   app.footer(
-      "Example:\n  explain runs/one --vehicle 3 --step 57\n"
+      "Examples:\n  explain runs/one --vehicle 3 --step 57\n  explain runs/one --all\n"
       "Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (!choices.all && (vehicle->empty() || step->empty())) {
+    std::cerr << "explain: --vehicle and --step must be given, or --all\n";
+    return hlc::kExitBadInput;
+  }
   return hlc::apps::exit_code_of(
       "explain", [&] { return explain(choices); }, hlc::kExitBadInput);
 }

@@ -186,7 +186,8 @@ void add_without(const ExplainedStep& explained, Lines& lines) {
   }
   std::vector<std::string> alike;
   if (!vehicles.empty()) {
-    alike.push_back(fmt::format("{}{}", is_driven ? "" : "the areas of ", fmt::join(vehicles, ", ")));
+    alike.push_back(
+        fmt::format("{}{}", is_driven ? "" : "the areas of ", fmt::join(vehicles, ", ")));
   }
   alike.insert(alike.end(), limits.begin(), limits.end());
   if (alike.empty()) return;

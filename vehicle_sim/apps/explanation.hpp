@@ -42,7 +42,7 @@ struct ExplainedStep {
   /// The step's problem searched again without one of its limits; all else, the others' plans
   /// included, as it was.
   struct Limit {
-    std::string name;                 ///< "the lane boundary"; unused for a vehicle
+    std::string name;                  ///< "the lane boundary"; unused for a vehicle
     std::optional<VehicleId> vehicle;  ///< whose areas it is
     std::string note;                  ///< who sets it; may be empty
     std::optional<double> ahead_m;  ///< as in StepOutcome, of the plan found; none: there is none

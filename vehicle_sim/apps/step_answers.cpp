@@ -51,7 +51,7 @@ std::optional<ExplainedStep::Choice> choice_of(const Controller& controller) {
       search::make_search_engine(*on.subgraph, *on.reachable, options, on.tables)->search(problem);
   if (result.maneuvers.empty() || !is_in_force(result.maneuvers, controller)) return {};
   const std::vector<search::Alternative> others = search::alternatives_to(
-      result.maneuvers.front(), *on.subgraph, *on.reachable, options, problem);
+      result.maneuvers.front(), *on.subgraph, *on.reachable, options, problem, on.tables);
   ExplainedStep::Choice choice{.first = plot::name_of(*result.maneuvers.front()), .next_best = {}};
   if (const search::Alternative* const second = runner_up(others)) {
     choice.next_best = plot::name_of(*second->first);
@@ -183,8 +183,7 @@ StepAnswers answers_of(const Controller& controller, const policy::SubgraphSelec
     answers.limits.push_back(limits.without("the end of its right of way", {.authority = true}));
     const std::vector<VehicleId> by = controller.road_withheld_by();
     if (!by.empty()) {
-      answers.limits.back().note =
-          "the road ahead is held by " + coordination::vehicles_text(by);
+      answers.limits.back().note = "the road ahead is held by " + coordination::vehicles_text(by);
     }
   }
   add_chosen(limits, chosen, policy, answers.limits);

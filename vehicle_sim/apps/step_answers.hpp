@@ -15,8 +15,8 @@ namespace hlc::apps {
 [[nodiscard]] double ahead_m(const controller::Controller& controller);
 
 /// Who asked for the subgraph in force, and for which: "rule 2 of policy mixed (J2, labels
-/// comfort)"; "the fork's request (...)", as a drive has no other operator; empty: nobody, it is the
-/// scenario's own.
+/// comfort)"; "the fork's request (...)", as a drive has no other operator; empty: nobody, it is
+/// the scenario's own.
 /// @param policy  name of the policy in force
 [[nodiscard]] std::string request_name(const policy::SubgraphSelector& chosen,
                                        const std::string& policy);

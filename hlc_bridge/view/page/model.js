@@ -81,6 +81,7 @@ export class Run {
       route: line_of(vehicle.route, this.unit),
       steps: [], // report of step k at [k], if any; without a label: no plan
       drives: [], // stretches without a gap
+      whys: {}, // explanation of step k at [k], text
     }));
   }
 
@@ -120,6 +121,10 @@ export class Run {
       vehicle.steps[k] = report;
       this.num_steps = Math.max(this.num_steps, k + 1);
     });
+  }
+
+  take_why({ vehicle, steps }) {
+    for (const [k, text] of steps) this.vehicle(vehicle).whys[k] = text;
   }
 
   take_drive(message) {

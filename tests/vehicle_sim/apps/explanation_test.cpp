@@ -107,11 +107,13 @@ TEST(Explanation, NamesTheLimitsThatCostSomethingAndThoseThatDidNot) {
   explained.limits[3].note = "the road ahead is held by vehicle 4";
   const std::string text = explanation(explained);
   EXPECT_THAT(text, HasSubstr("\nwithout the areas of 2   a new plan 0.70 m ahead, -0.2 m^2\n"));
-  EXPECT_THAT(text, HasSubstr("\nwithout the lane boundary   a new plan 0.50 m ahead, -0.012 m^2\n"));
+  EXPECT_THAT(text,
+              HasSubstr("\nwithout the lane boundary   a new plan 0.50 m ahead, -0.012 m^2\n"));
   EXPECT_THAT(text, HasSubstr("\nwithout the end of its right of way   a new plan 0.93 m ahead, "
                               "-0.3 m^2\n                the road ahead is held by vehicle 4\n"));
-  EXPECT_THAT(text, HasSubstr("the same without the areas of 1, zone 1 of policy mixed (at most 0.6 "
-                              "m/s), each alone\n"));
+  EXPECT_THAT(text,
+              HasSubstr("the same without the areas of 1, zone 1 of policy mixed (at most 0.6 "
+                        "m/s), each alone\n"));
 }
 
 TEST(Explanation, OfAFallbackNamesTheLimitsWithoutWhichThereIsAPlan) {

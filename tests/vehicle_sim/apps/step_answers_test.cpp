@@ -125,8 +125,8 @@ TEST(StepAnswers, WhatAForkRequestsIsALimitFromThereOn) {
   std::uint64_t first = 0;
   drive(scenario, {.steps = 8, .forks = {fork}}, [&](const Seen& seen) {
     if (first == 0) first = seen.controller.last_step().value;
-    const bool is_asked = seen.report.vehicle == VehicleId{2} &&
-                          seen.controller.last_step().value >= first + 4;
+    const bool is_asked =
+        seen.report.vehicle == VehicleId{2} && seen.controller.last_step().value >= first + 4;
     const StepAnswers answers =
         answers_of(seen.controller, seen.chosen, seen.report, scenario.policy);
     const ExplainedStep::Limit* const request = named(answers, "the fork's request");
