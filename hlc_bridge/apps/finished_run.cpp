@@ -9,6 +9,8 @@
 #include "hlc_bridge/record/report_file.hpp"
 #include "hlc_bridge/result/driving_fault.hpp"
 #include "hlc_bridge/result/waits.hpp"
+#include "hlc_bridge/view/run_page.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/road/lanelet_map.hpp"
 
 namespace hlc::apps {
@@ -36,8 +38,14 @@ view::FinishedRun finished_run(record::RunFolder read, std::string fault) {
   run.drives = std::move(read.drives);
   run.revision = program_revision();
   run.fault = std::move(fault);
-  for (const std::string& line : read.incomplete) run.fault += (run.fault.empty() ? "" : "; ") + line;
+  for (const std::string& line : read.incomplete)
+    run.fault += (run.fault.empty() ? "" : "; ") + line;
   return run;
+}
+
+void write_page(record::RunFolder read, std::string fault) {
+  const std::filesystem::path file = page_file(read.folder);
+  write_file(file, view::run_page(finished_run(std::move(read), std::move(fault))));
 }
 
 }  // namespace hlc::apps

@@ -24,4 +24,7 @@ struct Verdict {
 /// its logs or its explanations
 [[nodiscard]] view::FinishedRun finished_run(record::RunFolder read, std::string fault);
 
+/// Writes the page file. @throws also std::runtime_error naming it if it cannot be written
+void write_page(record::RunFolder read, std::string fault);
+
 }  // namespace hlc::apps

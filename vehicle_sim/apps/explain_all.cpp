@@ -7,7 +7,6 @@
 #include "hlc_bridge/apps/finished_run.hpp"
 #include "hlc_bridge/record/explanation_file.hpp"
 #include "hlc_bridge/result/run_summary.hpp"
-#include "hlc_bridge/view/run_page.hpp"
 #include "planner/apps/progress_line.hpp"
 #include "planner/common/text_file.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
@@ -30,9 +29,9 @@ std::vector<result::StepRecord> explain(const record::RunFolder& run,
       return wanted.step == step && wanted.vehicle == report.vehicle;
     });
     if (one == explanations.end()) return;
-    one->text = explanation(
-        explained_step(run, step, {.report = report, .ahead_m = ahead_m(controller)},
-                       answers_of(controller, chosen, report, run.scenario.policy)));
+    one->text =
+        explanation(explained_step(run, step, {.report = report, .ahead_m = ahead_m(controller)},
+                                   answers_of(controller, chosen, report, run.scenario.policy)));
     progress.show(++done);
   };
   const closed_loop::Experiment experiment = closed_loop::drive_experiment(run.scenario, options);
@@ -71,11 +70,10 @@ std::size_t explain_all(record::RunFolder run) {
   std::vector<result::Explanation> explanations =
       result::steps_to_explain(result::rows_before(run.rows, recorded));
   check_same_until(recorded, run, explain(run, explanations));
-  const std::filesystem::path folder = run.folder;
-  write_file(record::explanations_file(folder), record::explanations_csv(explanations));
+  write_file(record::explanations_file(run.folder), record::explanations_csv(explanations));
   const Verdict verdict =
       verdict_on(result::summarize(run.description, run.facts, run.rows, run.drives));
-  write_file(page_file(folder), view::run_page(finished_run(std::move(run), verdict.fault)));
+  write_page(std::move(run), verdict.fault);
   return explanations.size();
 }
 
