@@ -10,71 +10,30 @@
 #include <utility>
 #include <vector>
 
+#include "hlc_bridge/apps/finished_run.hpp"
 #include "hlc_bridge/apps/flags.hpp"
 #include "hlc_bridge/mcap/merge.hpp"
 #include "hlc_bridge/record/configuration.hpp"
-#include "hlc_bridge/record/log_files.hpp"
 #include "hlc_bridge/record/program.hpp"
-#include "hlc_bridge/record/report_file.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
 #include "hlc_bridge/record/step_files.hpp"
 #include "hlc_bridge/record/summary_file.hpp"
-#include "hlc_bridge/result/driving_fault.hpp"
 #include "hlc_bridge/result/run_summary.hpp"
 #include "hlc_bridge/result/summary_table.hpp"
 #include "hlc_bridge/view/foxglove_channels.hpp"
 #include "hlc_bridge/view/run_page.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
-#include "planner/road/lanelet_map.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace {
 
-/// What a run that was driven gets from its result: the exit code, and why it is not 0.
-struct Verdict {
-  int exit_code{hlc::kExitGood};
-  std::string fault;
-};
-
-Verdict verdict_on(const hlc::result::RunSummary& summary) {
-  if (std::string fault = hlc::result::driving_fault(summary); !fault.empty()) {
-    return {hlc::kExitDrivenBadly, std::move(fault)};
-  }
-  const auto stuck = hlc::result::stuck_vehicles(summary);
-  if (stuck.empty()) return {};
-  return {hlc::kExitStuck, "stuck at the end: vehicles " + hlc::record::ids_to_text(stuck)};
-}
-
-/// What stands out in a run, for its page: the faults of the drive and of the records.
-std::string faults_of(const Verdict& verdict, const std::vector<std::string>& incomplete) {
-  std::string faults = verdict.fault;
-  for (const std::string& line : incomplete) faults += (faults.empty() ? "" : "; ") + line;
-  return faults;
-}
-
-std::filesystem::path page_file(const std::filesystem::path& run) { return run / "run.html"; }
-
-/// The run as pages and viewers show it.
-hlc::view::FinishedRun finished_run(hlc::record::RunFolder read, std::string fault) {
-  hlc::view::FinishedRun run;
-  if (read.scenario.map_file) run.map = hlc::road::read_lanelet_map(*read.scenario.map_file);
-  run.log = hlc::record::read_logs(read.folder / "logs", read.facts);
-  run.time = read.facts.simulated_time ? "logical time" : "real time";
-  run.description = std::move(read.description);
-  run.facts = std::move(read.facts);
-  run.rows = std::move(read.rows);
-  run.drives = std::move(read.drives);
-  run.revision = hlc::program_revision();
-  run.fault = std::move(fault);
-  return run;
-}
-
 /// The page of an earlier summary may show another result. @throws
 /// std::filesystem::filesystem_error
 void remove_old_page(const std::filesystem::path& run) {
-  if (std::filesystem::is_regular_file(page_file(run))) std::filesystem::remove(page_file(run));
+  if (std::filesystem::is_regular_file(hlc::apps::page_file(run)))
+    std::filesystem::remove(hlc::apps::page_file(run));
 }
 
 /// The parts of run.mcap that the processes recorded; none: they did not.
@@ -117,9 +76,10 @@ struct Shown {
 void show(const Choices& choices, hlc::record::RunFolder read, std::string fault, Shown& shown) {
   const std::vector<std::filesystem::path> parts = recorded_parts(choices.run);
   if (!choices.page && parts.empty()) return;
-  const hlc::view::FinishedRun finished = finished_run(std::move(read), std::move(fault));
+  const hlc::view::FinishedRun finished =
+      hlc::apps::finished_run(std::move(read), std::move(fault));
   if (choices.page) {
-    hlc::write_file(page_file(choices.run), hlc::view::run_page(finished));
+    hlc::write_file(hlc::apps::page_file(choices.run), hlc::view::run_page(finished));
     shown.page = true;
   }
   if (parts.empty()) return;
@@ -144,18 +104,17 @@ int summarize_run(const Choices& choices) {
   hlc::write_file(run / "timing.csv", hlc::record::timing_csv(read.rows));
   hlc::write_file(run / "summary.json", hlc::record::summary_json(summary));
   hlc::record::keep_configuration(run, hlc::scenario::files_of(read.scenario));
-  Verdict verdict = verdict_on(summary);
+  hlc::apps::Verdict verdict = hlc::apps::verdict_on(summary);
   Shown shown;
   try {
-    std::string fault = faults_of(verdict, read.incomplete);
-    show(choices, std::move(read), std::move(fault), shown);
+    show(choices, std::move(read), verdict.fault, shown);
   } catch (const std::exception& error) {  // the result does not depend on it
     const char* const missing = choices.page && !shown.page ? "run.html" : "run.mcap";
     std::cerr << "summarize: no " << missing << ": " << error.what() << '\n';
     if (verdict.exit_code == hlc::kExitGood) verdict.exit_code = hlc::kExitBadInput;
   }
   std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
-  if (shown.page) std::cout << "the run as a page: " << page_file(run).string() << '\n';
+  if (shown.page) std::cout << "the run as a page: " << hlc::apps::page_file(run).string() << '\n';
   if (shown.messages) std::cout << "its messages: " << (run / "run.mcap").string() << '\n';
   if (!verdict.fault.empty()) std::cerr << "summarize: " << verdict.fault << '\n';
   return verdict.exit_code;

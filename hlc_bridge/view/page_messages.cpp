@@ -55,12 +55,26 @@ void add_drives(const FinishedRun& run, Json& messages) {
   }
 }
 
+/// Messages `why` of the vehicles that have explanations.
+void add_explanations(const FinishedRun& run, Json& messages) {
+  for (const result::VehicleDescription& vehicle : run.description.vehicles) {
+    Json steps = Json::array();
+    for (const result::Explanation& one : run.explanations) {
+      if (one.vehicle == vehicle.id) steps.push_back({one.step, one.text});
+    }
+    if (steps.empty() || !takes_part(vehicle.id, run.facts)) continue;
+    messages.push_back(
+        {{"kind", "why"}, {"vehicle", vehicle.id.value}, {"steps", std::move(steps)}});
+  }
+}
+
 }  // namespace
 
 std::string page_messages(const FinishedRun& run) {
   Json messages = Json::array({run_message(run)});
   add_steps(run, messages);
   add_drives(run, messages);
+  add_explanations(run, messages);
   messages.push_back(log_message(run.log));
   return text_of(messages);
 }

@@ -5,25 +5,25 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/result/explanation.hpp"
 #include "hlc_bridge/result/run_record.hpp"
 #include "planner/road/lanelet_map.hpp"
 
 /// The data of a run for the page (page/model.js), as messages: JSON objects whose `kind` is
 ///
 /// * `run`: the scenario, in words what was driven and what went wrong, the map's lanes, the
-/// vehicles with their routes, names of enumerators;
-///   with right of way `roads`, the routes of the conflict map: places of their cells and the
-///   number of the conflict zone at each (right_of_way/conflict_zones.hpp), 0 for none; the first
-///   message;
+///   vehicles with their routes, names of enumerators; with right of way `roads`, the routes of the
+///   conflict map: places of their cells and the number of the conflict zone at each
+///   (right_of_way/conflict_zones.hpp), 0 for none; the first message;
 /// * `maneuvers`: label, poses at equal times and swept area of each, in its own frame; the page
 ///   numbers them from 0 in the order in which they arrive;
 /// * `steps`: reports of one vehicle: steps, poses, and in `columns` a column per further field, in
 ///   the unit that `units` has for it or as places in the table that `tables` has: of this message
-///   or of `run`. `names` and `sets` are tables of texts and of lists of
-///   numbers, into which columns point: vehicles; `plan`: the numbers of its maneuvers, from the
-///   one under way on, as far as they are known; `held`: road, first cell and number of cells, or
-///   nothing;
+///   or of `run`. `names` and `sets` are tables of texts and of lists of numbers: of vehicles; in
+///   `plan` of its maneuvers, from the one under way on, as far as they are known; in `held` road,
+///   first cell and number of cells, or nothing;
 /// * `drive`: states of one vehicle at equal times, without a gap;
+/// * `why`: explanations of one vehicle: `steps` is a list of [step, text], a text with line feeds;
 /// * `log`: lines;
 /// * `end`: in a run under way only, see live_messages.hpp.
 ///
@@ -41,6 +41,7 @@ struct FinishedRun {
   result::Drives drives;
   std::optional<road::LaneletMap> map;  ///< none: open ground
   std::vector<result::LoggedLine> log;
+  std::vector<result::Explanation> explanations;
   std::string time;      ///< kind of time, as text: "logical time"
   std::string revision;  ///< of the programs
   std::string fault;     ///< what was wrong with the drive; empty: nothing

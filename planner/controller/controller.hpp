@@ -14,6 +14,7 @@
 #include "planner/controller/controller_options.hpp"
 #include "planner/controller/drivable_area.hpp"
 #include "planner/controller/ended_step.hpp"
+#include "planner/controller/left_out.hpp"
 #include "planner/controller/neighbours.hpp"
 #include "planner/controller/observation.hpp"
 #include "planner/controller/plan_in_force.hpp"
@@ -188,6 +189,20 @@ class Controller {
     return step_.entry_problems;
   }
 
+  /// After the last phase of a step in which `plan` searched: what it would have found without
+  /// these limits, given the same messages; without any left out: what it did find. Changes
+  /// nothing.
+  /// @param on  instead of the subgraph in force; prepared as for `switch_to`
+  /// @pre `problems` is not empty
+  [[nodiscard]] PlanWithout plan_without(const LeftOut& left_out) const;
+  [[nodiscard]] PlanWithout plan_without(const LeftOut& left_out, const PreparedSubgraph& on) const;
+  /// Those that `Authority::withheld_by` names; none without right of way.
+  [[nodiscard]] std::vector<VehicleId> road_withheld_by() const {
+    return authority_ ? authority_->withheld_by() : std::vector<VehicleId>{};
+  }
+  /// Whether the end of an authority limits plans.
+  [[nodiscard]] bool has_authority() const { return authority_.has_value(); }
+
   /// The permitted routes.
   [[nodiscard]] const std::vector<road::DrivableRoute>& routes() const { return tracker_.routes(); }
   /// The selected route; before the first measurement the first of all.
@@ -244,6 +259,7 @@ class Controller {
     std::vector<VehicleId> predecessors;
     std::vector<VehicleId> component;
     std::vector<search::HorizonProblem> entry_problems;
+    LeftOut left_out;  ///< of its problem
     /// Predictions that the search took into account
     std::map<VehicleId, std::shared_ptr<const coordination::Prediction>> respected;
     /// Those of other coupled vehicles, received when this one committed
@@ -294,6 +310,7 @@ class Controller {
   void search_candidate();
   bool find_candidate(const search::HorizonProblem& problem, std::size_t budget_share);
   void search_plan(search::HorizonProblem problem, std::size_t budget_share);
+  [[nodiscard]] PlanWithout search_again(const LeftOut& left_out);
   void keep_in_lane_where_held_up(const search::HorizonProblem& problem, std::size_t budget_share);
   [[nodiscard]] bool makes_room_for(const CoupledVehicle& other) const;
   [[nodiscard]] bool make_room(const search::HorizonProblem& own);

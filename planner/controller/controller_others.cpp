@@ -91,9 +91,13 @@ std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m(
 
 std::vector<std::vector<ConvexPolygon>> Controller::obstacles_m(CoupledObstacleRule rule) const {
   std::vector<CoupledVehicle> coupled_vehicles;
-  for (const VehicleId other : coupled()) coupled_vehicles.push_back(coupled_vehicle(other));
+  for (const VehicleId other : coupled()) {
+    if (!step_.left_out.holds(other)) coupled_vehicles.push_back(coupled_vehicle(other));
+  }
   std::vector<MissingVehicle> missing;
-  for (const VehicleId other : neighbours_.missing()) missing.push_back(missing_vehicle(other));
+  for (const VehicleId other : neighbours_.missing()) {
+    if (!step_.left_out.holds(other)) missing.push_back(missing_vehicle(other));
+  }
   return obstacles_m(coupled_vehicles, rule, missing);
 }
 

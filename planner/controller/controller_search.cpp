@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "planner/common/demand.hpp"
 #include "planner/controller/controller.hpp"
 #include "planner/controller/held_up.hpp"
 #include "planner/controller/making_room.hpp"
@@ -20,16 +21,18 @@ search::HorizonProblem Controller::posed_alone(double end_s_m) const {
   search::HorizonProblem problem =
       problem_in(entry_area() ? *entry_area() : route().corridor, end_s_m);
   if (!standing_m_.empty()) problem.obstacles_m.assign(problem.horizon_steps(), standing_m_);
+  if (step_.left_out.boundary) problem.boundary_m.clear();
   return problem;
 }
 
 search::HorizonProblem Controller::pose_problem(CoupledObstacleRule rule) const {
+  const bool has_end = authority_ && !step_.left_out.authority;
   search::HorizonProblem problem =
-      posed_alone(authority_ ? authority_->end_s_m(tracker_.s_m().value()) : kNoEnd_m);
+      posed_alone(has_end ? authority_->end_s_m(tracker_.s_m().value()) : kNoEnd_m);
   problem.obstacles_m = obstacles_m(rule);
   for (auto& areas_m : problem.obstacles_m)
     std::ranges::copy(standing_m_, std::back_inserter(areas_m));
-  if (authority_) {
+  if (has_end) {
     const ConvexPolygon bar_m =
         authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint);
     for (auto& areas_m : problem.obstacles_m) areas_m.push_back(bar_m);
@@ -100,7 +103,8 @@ bool Controller::make_room(const search::HorizonProblem& own) {
   std::vector<const coordination::OccupiedAreas*> desired;
   for (const VehicleId other : predecessors()) {
     const CoupledVehicle one = coupled_vehicle(other);
-    if (makes_room_for(one)) desired.push_back(&*one.prediction->desired);
+    if (makes_room_for(one) && !step_.left_out.holds(other))
+      desired.push_back(&*one.prediction->desired);
   }
   if (desired.empty()) return false;
   const auto is_found_beyond = [&](std::size_t from) {
@@ -117,6 +121,28 @@ std::optional<coordination::OccupiedAreas> Controller::desired_areas() {
   const bool is_better = !step_.candidate.plan || result.cost < step_.cost_m2 - kLeastGain_m2;
   if (result.maneuvers.empty() || !is_better) return std::nullopt;
   return in_force_->areas_of(plan_of(result.maneuvers), step_.next());
+}
+
+PlanWithout Controller::plan_without(const LeftOut& left_out) const {
+  return Controller(*this).search_again(left_out);
+}
+
+PlanWithout Controller::plan_without(const LeftOut& left_out, const PreparedSubgraph& on) const {
+  Controller other = *this;
+  other.search_ = CandidateSearch(on, options_.search, options_.horizon_steps);
+  return other.search_again(left_out);
+}
+
+/// The plan in force continues the same way as in the step's own search: up to t(k+1) a new one
+/// that has come into force is the former one.
+PlanWithout Controller::search_again(const LeftOut& left_out) {
+  HLC_DEMAND(!problems().empty());
+  step_.left_out = left_out;
+  step_.candidate = {};
+  search_candidate();
+  return {.plan = step_.candidate.plan,
+          .cost_m2 = step_.report.cost_m2,
+          .problem = step_.candidate.problems.back()};
 }
 
 }  // namespace hlc::controller

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,9 +17,16 @@ namespace hlc::policy {
 [[nodiscard]] std::optional<double> limit_at(std::span<const SpeedZone> zones,
                                              const Point& position_m);
 
-/// The least limit of the zones that the path passes between s and s + ahead_m; none if it passes
-/// none. The path is checked every centimetre.
+/// Index of the zone with the least limit among those that the path passes between s and s +
+/// ahead_m, of equal ones the first that it passes; none if it passes none. The path is checked
+/// every centimetre.
 /// @pre ahead_m >= 0
+[[nodiscard]] std::optional<std::size_t> least_zone_on(std::span<const SpeedZone> zones,
+                                                       const road::ReferencePath& path, double s_m,
+                                                       double ahead_m);
+
+/// The least limit of the zones that the path passes between s and s + ahead_m; none if it passes
+/// none: that of least_zone_on.
 [[nodiscard]] std::optional<double> limit_on(std::span<const SpeedZone> zones,
                                              const road::ReferencePath& path, double s_m,
                                              double ahead_m);

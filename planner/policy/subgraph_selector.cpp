@@ -49,13 +49,32 @@ const PreparedChoice& SubgraphSelector::prepared(const SubgraphRequest& request)
   return found->second;
 }
 
-std::optional<double> SubgraphSelector::limit_for(const controller::Controller& controller,
-                                                  StepIndex step) const {
+const PreparedChoice& SubgraphSelector::in_force() const {
+  return operator_ ? *operator_ : prepared(proposed_);
+}
+
+SubgraphSelector::Decision SubgraphSelector::decision() const {
+  Decision decision{.choice = &in_force(),
+                    .is_operators = operator_ != nullptr,
+                    .policy = {},
+                    .zone = zone_,
+                    .own = &prepared({})};
+  if (!operator_ && proposed_by_ != kNoPolicyCounts) decision.policy = proposed_by_;
+  return decision;
+}
+
+std::optional<double> SubgraphSelector::limit_of(std::optional<std::size_t> zone) const {
+  if (!zone) return std::nullopt;
+  return limit_mps(*zone);
+}
+
+std::optional<std::size_t> SubgraphSelector::zone_for(const controller::Controller& controller,
+                                                      StepIndex step) const {
   if (zones_.empty() || !controller.has_plan()) return std::nullopt;
   const std::optional<double> s_m =
       controller.path_s_m_of(controller.plan_in_force().pose_at(step).position_m());
   if (!s_m) return std::nullopt;
-  return limit_on(zones_, controller.route().path, *s_m, zone_ahead_m_);
+  return least_zone_on(zones_, controller.route().path, *s_m, zone_ahead_m_);
 }
 
 void SubgraphSelector::let_policies_choose(StepIndex step, StepIndex start,
@@ -85,8 +104,8 @@ void SubgraphSelector::let_policies_choose(StepIndex step, StepIndex start,
 bool SubgraphSelector::begin_step(controller::Controller& controller, StepIndex step,
                                   std::optional<StepIndex> start, std::optional<double> battery_v) {
   if (start) let_policies_choose(step, *start, battery_v);
-  const PreparedChoice& choice = operator_ ? *operator_ : prepared(proposed_);
-  const controller::PreparedSubgraph& next = choice.under(limit_for(controller, step));
+  zone_ = zone_for(controller, step);
+  const controller::PreparedSubgraph& next = in_force().under(limit_of(zone_));
   if (next.subgraph == controller.prepared_subgraph().subgraph) return false;
   controller.switch_to(next);
   return true;
@@ -103,7 +122,7 @@ void SubgraphSelector::end_step(const controller::Controller& controller,
   const auto limited =
       [this](const SubgraphRequest& request,
              const controller::Controller& one) -> const controller::PreparedSubgraph& {
-    return prepared(request).under(limit_for(one, {one.last_step().value + 1}));
+    return prepared(request).under(limit_of(zone_for(one, {one.last_step().value + 1})));
   };
   for (std::size_t i = 0; i < policies_.size(); ++i) {
     if (i <= counts_) policies_[i]->look_ahead(controller, limited);

@@ -58,6 +58,19 @@ class SubgraphSelector {
   bool begin_step(controller::Controller& controller, StepIndex step,
                   std::optional<StepIndex> start, std::optional<double> battery_v);
 
+  /// Who decided on the subgraph of the last `begin_step`.
+  struct Decision {
+    const PreparedChoice* choice{};     ///< the request in force, under every limit
+    bool is_operators{};                ///< it is the operator's
+    std::optional<std::size_t> policy;  ///< otherwise: index of the policy that proposed it, if any
+    std::optional<std::size_t> zone;    ///< index of the zone whose limit holds, if any
+    const PreparedChoice* own{};        ///< the scenario's own subgraph instead of a request
+  };
+  /// @pre `begin_step` was called, and nothing since that changes what is in force
+  [[nodiscard]] Decision decision() const;
+  /// @param zone  index of a zone
+  [[nodiscard]] double limit_mps(std::size_t zone) const { return zones_[zone].max_speed_mps; }
+
   /// True if policies look ahead after the next step.
   [[nodiscard]] bool looks_ahead() const;
   /// To be called after a step, when its messages and command are published.
@@ -69,8 +82,10 @@ class SubgraphSelector {
   static constexpr std::size_t kNoPolicyCounts = static_cast<std::size_t>(-1);
 
   [[nodiscard]] const PreparedChoice& prepared(const SubgraphRequest& request) const;
-  [[nodiscard]] std::optional<double> limit_for(const controller::Controller& controller,
-                                                StepIndex step) const;
+  [[nodiscard]] const PreparedChoice& in_force() const;
+  [[nodiscard]] std::optional<std::size_t> zone_for(const controller::Controller& controller,
+                                                    StepIndex step) const;
+  [[nodiscard]] std::optional<double> limit_of(std::optional<std::size_t> zone) const;
   void see_zones_for(const PreparedChoice& choice);
   void let_policies_choose(StepIndex step, StepIndex start, std::optional<double> battery_v);
 
@@ -84,6 +99,7 @@ class SubgraphSelector {
   std::vector<std::pair<SubgraphRequest, PreparedChoice>> choices_;
 
   std::shared_ptr<const PreparedChoice> operator_;
+  std::optional<std::size_t> zone_;  ///< whose limit holds
   std::optional<coordination::Report> last_;
   SubgraphRequest proposed_;                  ///< by the policies
   std::size_t proposed_by_{kNoPolicyCounts};  ///< index of the proposing policy

@@ -46,11 +46,13 @@ std::vector<Alternative> alternatives_to(const automaton::Maneuver* except,
                                          const automaton::Subgraph& subgraph,
                                          const automaton::ReachableSets& reachable,
                                          const SearchOptions& options,
-                                         const HorizonProblem& problem) {
+                                         const HorizonProblem& problem,
+                                         std::shared_ptr<const SearchTables> tables) {
   HLC_DEMAND(problem.horizon_steps() >= 1 && is_admissible(options.cost_to_go));
   const automaton::UniversalAutomaton& automaton = subgraph.automaton();
   const EdgeCosts costs(subgraph, options.criterion_weights, problem.horizon_steps());
-  const std::unique_ptr<SearchEngine> engine = make_search_engine(subgraph, reachable, options);
+  const std::unique_ptr<SearchEngine> engine =
+      make_search_engine(subgraph, reachable, options, std::move(tables));
   std::vector<Alternative> alternatives;
   for (const automaton::Edge& edge :
        subgraph.successors(problem.start_trim, problem.horizon_steps())) {

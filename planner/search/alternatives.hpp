@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,13 +26,13 @@ struct Alternative {
 /// many searches as the start has edges, each with the options' budget. Works with every engine.
 /// @param reachable  belongs to `subgraph`
 /// @param except     the first maneuver of the plan in question; nullptr: none is left out
+/// @param tables     as for make_search_engine
 /// @pre as SearchEngine::search, n >= 1, the cost-to-go is admissible
 /// @throws std::invalid_argument as make_search_engine
-[[nodiscard]] std::vector<Alternative> alternatives_to(const automaton::Maneuver* except,
-                                                       const automaton::Subgraph& subgraph,
-                                                       const automaton::ReachableSets& reachable,
-                                                       const SearchOptions& options,
-                                                       const HorizonProblem& problem);
+[[nodiscard]] std::vector<Alternative> alternatives_to(
+    const automaton::Maneuver* except, const automaton::Subgraph& subgraph,
+    const automaton::ReachableSets& reachable, const SearchOptions& options,
+    const HorizonProblem& problem, std::shared_ptr<const SearchTables> tables = {});
 
 /// The runner-up: the plan of least cost among these, so the best plan with another first maneuver.
 /// If costs are equal, the first.

@@ -14,17 +14,16 @@
 #include <utility>
 #include <vector>
 
+#include "hlc_bridge/apps/finished_run.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/record/explanation_file.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
 #include "planner/apps/flags.hpp"
-#include "planner/controller/controller.hpp"
-#include "planner/plot/search_words.hpp"
 #include "planner/scenario/problem_dump.hpp"
-#include "planner/search/alternatives.hpp"
-#include "planner/search/search_engine.hpp"
-#include "planner/search/search_options.hpp"
+#include "vehicle_sim/apps/explain_all.hpp"
 #include "vehicle_sim/apps/explanation.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
+#include "vehicle_sim/apps/step_answers.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace {
@@ -36,6 +35,7 @@ struct Choices {
   std::filesystem::path run;
   std::uint8_t vehicle{};
   std::uint64_t step{};
+  bool all{};
   std::filesystem::path problems;
 };
 
@@ -47,54 +47,10 @@ const hlc::coordination::Report* report_of(const Rows& rows, const Choices& choi
   return found == rows.end() ? nullptr : &found->record.report;
 }
 
-/// Way that the plan in force leads from t(k+1) on.
-double ahead_m(const hlc::controller::Controller& controller) {
-  const hlc::coordination::Plan& plan = controller.plan_in_force();
-  double sum_m = 0.0;
-  for (hlc::StepIndex step{controller.last_step().value + 1}; step < plan.end(); ++step.value) {
-    const hlc::Point next_m = plan.pose_at({step.value + 1}).position_m();
-    sum_m += (next_m - plan.pose_at(step).position_m()).norm();
-  }
-  return sum_m;
-}
-
-/// True if the plan in force consists of these maneuvers from t(k+1) on.
-bool is_in_force(const std::vector<const hlc::automaton::Maneuver*>& maneuvers,
-                 const hlc::controller::Controller& controller) {
-  hlc::StepIndex step = controller.last_step();
-  return std::ranges::all_of(maneuvers, [&](const hlc::automaton::Maneuver* maneuver) {
-    ++step.value;
-    return &controller.plan_in_force().maneuver_during(step) == maneuver;
-  });
-}
-
-/// What a new plan begins with, and the best plan with another first maneuver. None if the plan in
-/// force is not that of the step's last problem, or the cost-to-go is no bound.
-std::optional<hlc::apps::ExplainedStep::Choice> choice_of(
-    const hlc::controller::Controller& controller) {
-  const hlc::search::SearchOptions& options = controller.options().search;
-  if (controller.problems().empty() || !hlc::search::is_admissible(options.cost_to_go)) return {};
-  const hlc::search::HorizonProblem& problem = controller.problems().back();
-  const hlc::controller::PreparedSubgraph& on = controller.prepared_subgraph();
-  const hlc::search::SearchResult result =
-      hlc::search::make_search_engine(*on.subgraph, *on.reachable, options, on.tables)
-          ->search(problem);
-  if (result.maneuvers.empty() || !is_in_force(result.maneuvers, controller)) return {};
-  const std::vector<hlc::search::Alternative> others = hlc::search::alternatives_to(
-      result.maneuvers.front(), *on.subgraph, *on.reachable, options, problem);
-  hlc::apps::ExplainedStep::Choice choice{.first = hlc::plot::name_of(*result.maneuvers.front()),
-                                          .next_best = {}};
-  if (const hlc::search::Alternative* const second = runner_up(others)) {
-    choice.next_best = hlc::plot::name_of(*second->first);
-    choice.extra_m2 = second->best.cost - result.cost;
-  }
-  return choice;
-}
-
 struct Driven {
   Rows rows;
   hlc::apps::StepOutcome outcome;  ///< of the vehicle in the step
-  std::optional<hlc::apps::ExplainedStep::Choice> choice;
+  hlc::apps::StepAnswers answers;
 };
 
 /// Drives the run up to the step, and with some vehicles gone from the step on.
@@ -110,12 +66,14 @@ class Drives {
 
   /// @param dump  receives the planning problems; may be nullptr
   [[nodiscard]] Driven as_it_was(const hlc::scenario::ProblemDump* dump) const {
-    std::optional<hlc::apps::ExplainedStep::Choice> choice;
-    Driven driven = drive(options_, [&](const hlc::controller::Controller& controller) {
+    hlc::apps::StepAnswers answers;
+    Driven driven = drive(options_, [&](const hlc::controller::Controller& controller,
+                                        const hlc::policy::SubgraphSelector& chosen,
+                                        const hlc::coordination::Report& report) {
       if (dump != nullptr) dump->write(controller);
-      if (controller.has_plan()) choice = choice_of(controller);
+      answers = hlc::apps::answers_of(controller, chosen, report, run_.scenario.policy);
     });
-    driven.choice = std::move(choice);
+    driven.answers = std::move(answers);
     return driven;
   }
 
@@ -126,20 +84,22 @@ class Drives {
       fork.changes.emplace_back(hlc::closed_loop::Fork::Without{one});
     options.forks.push_back(std::move(fork));
     return {.gone = std::move(gone),
-            .outcome = drive(std::move(options), [](const auto&) {}).outcome};
+            .outcome = drive(std::move(options), [](const auto&...) {}).outcome};
   }
 
  private:
   /// @param look  at the vehicle's controller after the step
   [[nodiscard]] Driven drive(
       hlc::closed_loop::ExperimentOptions options,
-      const std::function<void(const hlc::controller::Controller&)>& look) const {
+      const decltype(hlc::closed_loop::ExperimentOptions::after_step)& look) const {
     Driven driven;
-    options.after_step = [&](const hlc::controller::Controller& controller) {
+    options.after_step = [&](const hlc::controller::Controller& controller,
+                             const hlc::policy::SubgraphSelector& chosen,
+                             const hlc::coordination::Report& report) {
       const std::uint64_t step = controller.last_step().value - *run_.facts.first_step;
       if (step != choices_.step || controller.options().vehicle.value != choices_.vehicle) return;
-      driven.outcome.ahead_m = controller.has_plan() ? ahead_m(controller) : 0.0;
-      look(controller);
+      driven.outcome.ahead_m = hlc::apps::ahead_m(controller);
+      look(controller, chosen, report);
     };
     const hlc::closed_loop::Experiment experiment =
         hlc::closed_loop::drive_experiment(run_.scenario, options);
@@ -168,16 +128,6 @@ void check_choices(const hlc::record::RunFolder& run, const Choices& choices) {
                   choices.step, choices.vehicle, run.rows.empty() ? 0 : run.rows.back().step));
 }
 
-/// Vehicles that had a report in the step, without the explained one.
-std::vector<VehicleId> others_in(const Rows& rows, const Choices& choices) {
-  std::vector<VehicleId> others;
-  for (const hlc::result::StepRecord& row : rows) {
-    const VehicleId vehicle = row.record.report.vehicle;
-    if (row.step == choices.step && vehicle.value != choices.vehicle) others.push_back(vehicle);
-  }
-  return others;
-}
-
 /// Those that may have changed the step: coupled, missing, waited for, or in the way of the plan.
 std::vector<VehicleId> that_may_matter(const hlc::coordination::Report& report,
                                        const std::vector<VehicleId>& others) {
@@ -189,8 +139,7 @@ std::vector<VehicleId> that_may_matter(const hlc::coordination::Report& report,
   return {found.begin(), found.end()};
 }
 
-int explain(const Choices& choices) {
-  const hlc::record::RunFolder run = hlc::record::read_run_folder(choices.run);
+int explain_step(const hlc::record::RunFolder& run, const Choices& choices) {
   check_choices(run, choices);
   const Drives drives(run, choices);
   std::optional<hlc::scenario::ProblemDump> dump;
@@ -200,14 +149,8 @@ int explain(const Choices& choices) {
   const Driven driven = drives.as_it_was(dump ? &*dump : nullptr);
   hlc::apps::check_same_until(choices.step + 1, run, driven.rows);
   const hlc::coordination::Report& report = driven.outcome.report;
-  const hlc::scenario::ScenarioVehicle& vehicle =
-      hlc::scenario::vehicle_of(run.scenario, report.vehicle);
-  hlc::apps::ExplainedStep explained{.name = vehicle.name,
-                                     .step = choices.step,
-                                     .step_s = run.description.step_s,
-                                     .outcome = driven.outcome,
-                                     .others = others_in(driven.rows, choices)};
-  if (report.status == hlc::coordination::StepStatus::kPlanned) explained.choice = driven.choice;
+  hlc::apps::ExplainedStep explained =
+      hlc::apps::explained_step(run, choices.step, driven.outcome, driven.answers);
   const std::vector<VehicleId> may_matter = that_may_matter(report, explained.others);
   if (choices.step > 0 && !may_matter.empty()) {
     explained.without_all = drives.without(may_matter);
@@ -217,28 +160,50 @@ int explain(const Choices& choices) {
   return hlc::kExitGood;
 }
 
+int explain(const Choices& choices) {
+  hlc::record::RunFolder run = hlc::record::read_run_folder(choices.run);
+  if (!choices.all) return explain_step(run, choices);
+  const std::size_t count = hlc::apps::explain_all(std::move(run));
+  std::cout << fmt::format("{} steps explained: {}\nthe run as a page: {}\n", count,
+                           hlc::record::explanations_file(choices.run).string(),
+                           hlc::apps::page_file(choices.run).string());
+  return hlc::kExitGood;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{
       "Why a vehicle did what it did in a step of a run of logical time: what it knew, what it "
-      "would have done alone, and without each of the others. Each answer is the run driven again "
-      "up to this step, without them from there on.",
+      "would have done alone, without each of the others, and without each limit of its plan: the "
+      "lane boundary, the end of its right of way, a zone, a request. Each answer without others "
+      "is the run driven again up to this step, without them from there on; each without a limit "
+      "is the step's problem searched again.",
       "explain"};
   Choices choices;
   app.add_option("RUN,--run", choices.run, "run folder")->required();
-  app.add_option("--vehicle", choices.vehicle, "id")
-      ->required()
-      ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
-  app.add_option("--step", choices.step, "from 0, as on the page and in steps.csv")
-      ->required()
-      ->check(hlc::apps::whole(0, 100000));
-  app.add_option("--problems", choices.problems,
-                 "folder for the step's planning problems, for plan_problem");
+  CLI::Option* const vehicle = app.add_option("--vehicle", choices.vehicle, "id")
+                                   ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
+  CLI::Option* const step =
+      app.add_option("--step", choices.step, "from 0, as on the page and in steps.csv")
+          ->check(hlc::apps::whole(0, 100000));
+  CLI::Option* const all = app.add_flag(
+      "--all", choices.all,
+      "instead: explains every step in which a vehicle begins to keep its plan, to stop, to wait "
+      "or "
+      "to miss others, by searches alone (the run is driven once; some seconds for 20 cars and 150 "
+      "steps), writes explanations.csv into the run folder and its run.html again with them");
+  CLI::Option* const problems = app.add_option(
+      "--problems", choices.problems, "folder for the step's planning problems, for plan_problem");
+  all->excludes(vehicle)->excludes(step)->excludes(problems);
   app.footer(
-      "Example:\n  explain runs/one --vehicle 3 --step 57\n"
+      "Examples:\n  explain runs/one --vehicle 3 --step 57\n  explain runs/one --all\n"
       "Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (!choices.all && (vehicle->empty() || step->empty())) {
+    std::cerr << "explain: --vehicle and --step must be given, or --all\n";
+    return hlc::kExitBadInput;
+  }
   return hlc::apps::exit_code_of(
       "explain", [&] { return explain(choices); }, hlc::kExitBadInput);
 }

@@ -16,6 +16,10 @@ using coordination::StepStatus;
 
 /// Ways that differ by less are alike.
 constexpr double kStands_m = 1e-3;
+/// The same of costs.
+constexpr double kAlike_m2 = 1e-6;
+/// Column of the values, behind a shorter key.
+constexpr std::size_t kColumn = 16;
 
 /// Why the plan in force stayed.
 std::string reason_words(const Report& report) {
@@ -50,6 +54,11 @@ std::string reason_words(const Report& report) {
   return "no reason";
 }
 
+std::string plan_words(double ahead_m) {
+  return ahead_m < kStands_m ? "a new plan: it stands"
+                             : fmt::format("a new plan {:.2f} m ahead", ahead_m);
+}
+
 /// What it did, in a few words.
 std::string outcome_words(const StepOutcome& outcome) {
   const Report& report = outcome.report;
@@ -59,9 +68,7 @@ std::string outcome_words(const StepOutcome& outcome) {
           report.quality == PlanQuality::kOptimal
               ? ", the best possible"
               : fmt::format(", at most {:.3g} m^2 above the best possible", report.gap_m2);
-      return outcome.ahead_m < kStands_m
-                 ? "a new plan: it stands" + proof
-                 : fmt::format("a new plan {:.2f} m ahead{}", outcome.ahead_m, proof);
+      return plan_words(outcome.ahead_m) + proof;
     }
     case StepStatus::kFallback:
       return fmt::format("kept its plan, {:.2f} m ahead: {}", outcome.ahead_m,
@@ -83,13 +90,31 @@ bool is_alike(const StepOutcome& a, const StepOutcome& b) {
 class Lines {
  public:
   void add(const std::string& key, const std::string& value) {
-    text_ += fmt::format("{:<16}{}\n", key, value);
+    text_ += fmt::format("{:<{}}{}\n", key, key.size() < kColumn ? kColumn : key.size() + 3, value);
   }
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
   std::string text_;
 };
+
+/// Whether the plan would have been the same in what counts.
+bool is_alike(const StepOutcome& outcome, const ExplainedStep::Limit& limit) {
+  if (!limit.ahead_m) return outcome.report.status != StepStatus::kPlanned;
+  return limit.extra_m2 && std::abs(*limit.ahead_m - outcome.ahead_m) < kStands_m &&
+         std::abs(*limit.extra_m2) < kAlike_m2;
+}
+
+std::string name_of(const ExplainedStep::Limit& limit) {
+  return limit.vehicle ? fmt::format("the areas of {}", limit.vehicle->value) : limit.name;
+}
+
+std::string limit_words(const ExplainedStep::Limit& limit) {
+  if (!limit.ahead_m) return "no plan";
+  std::string words = plan_words(*limit.ahead_m);
+  if (limit.extra_m2) words += fmt::format(", {:+.3g} m^2", *limit.extra_m2);
+  return words;
+}
 
 std::string choice_words(const ExplainedStep::Choice& choice) {
   const std::string begin = "it begins with " + choice.first;
@@ -119,6 +144,57 @@ void add_what_it_knew(const ExplainedStep& explained, Lines& lines) {
   lines.add("", "may come near: " + coordination::vehicles_text(report.coupled) + "; " + order);
 }
 
+void add_alone(const ExplainedStep& explained, Lines& lines) {
+  if (explained.without_all) {
+    const StepOutcome& alone = explained.without_all->outcome;
+    lines.add("alone", is_alike(explained.outcome, alone) ? "the same" : outcome_words(alone));
+  } else if (explained.alone) {
+    lines.add("alone", is_alike(explained.outcome, *explained.alone)
+                           ? "the same"
+                           : limit_words(*explained.alone));
+  }
+}
+
+/// Vehicles that were gone in another drive; returns those that did not matter.
+std::vector<int> add_without_vehicles(const ExplainedStep& explained, Lines& lines) {
+  std::vector<int> alike;
+  for (const ExplainedStep::Without& one : explained.without_one) {
+    const int vehicle = one.gone.front().value;
+    if (is_alike(explained.outcome, one.outcome)) {
+      alike.push_back(vehicle);
+    } else {
+      lines.add(fmt::format("without {}", vehicle), outcome_words(one.outcome));
+    }
+  }
+  return alike;
+}
+
+/// What did not matter is in one line. Of vehicles that is known of other drives, if there are any.
+void add_without(const ExplainedStep& explained, Lines& lines) {
+  std::vector<int> vehicles = add_without_vehicles(explained, lines);
+  const bool is_driven = !explained.without_one.empty();
+  std::vector<std::string> limits;
+  for (const ExplainedStep::Limit& limit : explained.limits) {
+    if (!is_alike(explained.outcome, limit)) {
+      lines.add("without " + name_of(limit), limit_words(limit));
+      if (!limit.note.empty()) lines.add("", limit.note);
+    } else if (!limit.vehicle) {
+      limits.push_back(limit.name);
+    } else if (!is_driven) {
+      vehicles.push_back(limit.vehicle->value);
+    }
+  }
+  std::vector<std::string> alike;
+  if (!vehicles.empty()) {
+    alike.push_back(
+        fmt::format("{}{}", is_driven ? "" : "the areas of ", fmt::join(vehicles, ", ")));
+  }
+  alike.insert(alike.end(), limits.begin(), limits.end());
+  if (alike.empty()) return;
+  lines.add("", fmt::format("the same without {}{}", fmt::join(alike, ", "),
+                            vehicles.size() + limits.size() > 1 ? ", each alone" : ""));
+}
+
 }  // namespace
 
 std::string explanation(const ExplainedStep& explained) {
@@ -133,23 +209,8 @@ std::string explanation(const ExplainedStep& explained) {
     lines.add("", coordination::waiting_text(report, explained.step_s));
   }
   add_what_it_knew(explained, lines);
-  if (explained.without_all) {
-    const StepOutcome& alone = explained.without_all->outcome;
-    lines.add("alone", is_alike(explained.outcome, alone) ? "the same" : outcome_words(alone));
-  }
-  std::vector<int> not_needed;
-  for (const ExplainedStep::Without& one : explained.without_one) {
-    const int vehicle = one.gone.front().value;
-    if (is_alike(explained.outcome, one.outcome)) {
-      not_needed.push_back(vehicle);
-    } else {
-      lines.add(fmt::format("without {}", vehicle), outcome_words(one.outcome));
-    }
-  }
-  if (!not_needed.empty()) {
-    lines.add("", fmt::format("the same without {}{}", fmt::join(not_needed, ", "),
-                              not_needed.size() > 1 ? ", each alone" : ""));
-  }
+  add_alone(explained, lines);
+  add_without(explained, lines);
   return lines.text();
 }
 

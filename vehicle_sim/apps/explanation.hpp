@@ -38,10 +38,24 @@ struct ExplainedStep {
     double extra_m2{};      ///< by which the runner-up costs more
   };
   std::optional<Choice> choice;  ///< none without a plan of this step's search
+
+  /// The step's problem searched again without one of its limits; all else, the others' plans
+  /// included, as it was.
+  struct Limit {
+    std::string name;                  ///< "the lane boundary"; unused for a vehicle
+    std::optional<VehicleId> vehicle;  ///< whose areas it is
+    std::string note;                  ///< who sets it; may be empty
+    std::optional<double> ahead_m;  ///< as in StepOutcome, of the plan found; none: there is none
+    /// By which that plan costs more than the step's own in this problem: negative if the limit
+    /// cost something. None: the step has no plan of its own.
+    std::optional<double> extra_m2;
+  };
+  std::vector<Limit> limits;
+  std::optional<Limit> alone;  ///< without any other vehicle; not needed with `without_all`
 };
 
-/// Lines of text: what the vehicle did and why, what it knew, what it would have done alone, and
-/// what without each of the others.
+/// Lines of text: what the vehicle did and why, what it knew, what it would have done alone,
+/// without each of the others, and without each limit of its problem.
 [[nodiscard]] std::string explanation(const ExplainedStep& explained);
 
 }  // namespace hlc::apps

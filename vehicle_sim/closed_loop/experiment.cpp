@@ -162,7 +162,7 @@ class Lab {
       reports[i].report = high_level_controller::with_answer(std::move(reports[i].report), answer);
       member.hlc.controller().note_causes(reports[i].report);
       report(reports[i]);
-      if (after_step_) after_step_(member.hlc.controller());
+      if (after_step_) after_step_(member.hlc.controller(), member.choice, reports[i].report);
       if (reports[i].report.status == coordination::StepStatus::kStandby) continue;
       member.choice.end_step(member.hlc.controller(), reports[i].report);
     }
@@ -271,7 +271,7 @@ class Lab {
   lab_control::LabRunSettings settings_;
   lab_control::LogicalRun run_;
   controller::JointStepRules rules_;
-  std::function<void(const controller::Controller&)> after_step_;
+  decltype(ExperimentOptions::after_step) after_step_;
   std::function<Nanoseconds()> wall_clock_;
   std::function<Nanoseconds()> cpu_clock_;
   std::vector<Member> members_;  ///< in the order of priorities

@@ -7,6 +7,7 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 #include "planner/controller/joint_step.hpp"
+#include "planner/policy/subgraph_selector.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/closed_loop/fork.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
@@ -33,8 +34,11 @@ struct ExperimentOptions {
   std::vector<Fork> forks{};  ///< @pre check_forks throws nothing
   /// prepare_subgraph_of the scenario, for who drives it more than once. None: made by the run.
   std::optional<controller::PreparedSubgraph> prepared{};
-  /// Receives each controller at the end of its step, once its report is complete. May be absent.
-  std::function<void(const controller::Controller&)> after_step{};
+  /// Receives each controller at the end of its step, once its report is complete, with what chose
+  /// its subgraph. May be absent.
+  std::function<void(const controller::Controller&, const policy::SubgraphSelector&,
+                     const coordination::Report&)>
+      after_step{};
 };
 
 /// Wall time of a run by part. The rest of RunFacts::wall_s: state lists, commands, lab control,

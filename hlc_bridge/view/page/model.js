@@ -90,10 +90,6 @@ export class Run {
     this.maneuvers.push(...maneuvers.map(decode));
   }
 
-  take_why({ vehicle, steps }) {
-    for (const [k, text] of steps) this.vehicle(vehicle).whys[k] = text;
-  }
-
   take_steps(message) {
     const { units, columns, tables } = message;
     const poses = this.poses_of(message);
@@ -107,6 +103,10 @@ export class Run {
       vehicle.steps[k] = report;
       this.num_steps = Math.max(this.num_steps, k + 1);
     });
+  }
+
+  take_why({ vehicle, steps }) {
+    for (const [k, text] of steps) this.vehicle(vehicle).whys[k] = text;
   }
 
   take_drive(message) {

@@ -120,6 +120,20 @@ TEST(PageMessages, ACarThatIsNotInTheRunIsLeftOut) {
   EXPECT_TRUE(of_kind(run, "drive", 3).empty());
 }
 
+TEST(PageMessages, TheExplanationsOfAVehicleAreOneMessage) {
+  FinishedRun run = sample_run(3, 20);
+  EXPECT_TRUE(of_kind(run, "why").empty());
+  run.explanations = {{.step = kWaitsFrom, .vehicle = VehicleId{2}, .text = "waits\nfor <1>"},
+                      {.step = kFallsBackIn, .vehicle = VehicleId{2}, .text = "keeps"},
+                      {.step = 9, .vehicle = VehicleId{3}, .text = "misses"}};
+  const std::vector<json> whys = of_kind(run, "why");
+  ASSERT_EQ(whys.size(), 2U);
+  EXPECT_EQ(whys[0], json({{"kind", "why"},
+                           {"vehicle", 2},
+                           {"steps", {{kWaitsFrom, "waits\nfor <1>"}, {kFallsBackIn, "keeps"}}}}));
+  EXPECT_EQ(whys[1].at("steps"), json::array({json::array({9, "misses"})}));
+}
+
 TEST(PageMessages, ARunWithoutStepsHasAllKindsThatAreNotOfSteps) {
   const FinishedRun run = sample_run(2, 0);
   std::set<std::string> kinds;

@@ -9,6 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "hlc_bridge/record/explanation_file.hpp"
+#include "hlc_bridge/record/run_folder.hpp"
+#include "planner/common/text_file.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -86,6 +89,35 @@ TEST_F(Explain, TheProblemsOfTheStepCanBeSolvedAgainAndHaveTheSameRunnerUp) {
               HasSubstr(fmt::format(", {:+.3g} m^2\n", second["extra"].get<double>())));
 }
 
+TEST_F(Explain, AllWritesTheFirstStepOfEveryHindranceAndThePageWithThem) {
+  const test::Outcome outcome = explain("--all");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const record::RunFolder read = record::read_run_folder(run());
+  const std::vector<result::Explanation> written = record::read_explanations(run(), read.rows);
+  const std::vector<result::Explanation> expected = result::steps_to_explain(read.rows);
+  ASSERT_EQ(written.size(), expected.size());
+  ASSERT_FALSE(written.empty());
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    EXPECT_EQ(written[i].step, expected[i].step);
+    EXPECT_THAT(written[i].text,
+                testing::StartsWith(fmt::format("vehicle {} ", expected[i].vehicle.value)));
+    EXPECT_THAT(written[i].text, HasSubstr(fmt::format(", step {} (", expected[i].step)));
+  }
+  const auto has_explanations = [] {
+    return read_file(run() / "run.html").find(R"("kind":"why")") != std::string::npos;
+  };
+  EXPECT_TRUE(has_explanations());
+  const test::Outcome summarized = test::run_program("summarize --run " + run().string());
+  EXPECT_EQ(summarized.exit_code, 0) << summarized.output;
+  EXPECT_TRUE(has_explanations());
+  write_file(record::explanations_file(run()), "step,vehicle,text\n1,200,of another run\n");
+  const test::Outcome refused = test::run_program("summarize --run " + run().string());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("explanations.csv:2: vehicle = \"200\", must be"));
+  EXPECT_FALSE(fs::exists(run() / "run.html"));
+  fs::remove(record::explanations_file(run()));
+}
+
 TEST_F(Explain, RefusesInOneLine) {
   struct Bad {
     std::string flags;
@@ -93,7 +125,8 @@ TEST_F(Explain, RefusesInOneLine) {
   };
   for (const auto& [flags, named] :
        {Bad{"--vehicle 12 --step 3", "1, 2, 3, 4, 5"}, Bad{"--vehicle 2 --step 12", "last is 11"},
-        Bad{"--vehicle 2", "--step"}, Bad{"--vehicle 0 --step 1", "--vehicle"},
+        Bad{"--vehicle 2", "--step"}, Bad{"--all --step 2", "--all"},
+        Bad{"--vehicle 0 --step 1", "--vehicle"},
         Bad{"--vehicle 2 --step 1 --colour red", "--colour"},
         Bad{"--vehicle 2 --step 1 --problems /proc/no", "--dump-problems"}}) {
     const auto [exit_code, output] = explain(flags);

@@ -92,6 +92,39 @@ TEST(Explanation, NamesThoseWithoutWhichItWouldHaveBeenOtherwise) {
   EXPECT_THAT(text, HasSubstr("the same without 1, 4, each alone"));
 }
 
+ExplainedStep::Limit limit(std::string name, double ahead_m, double extra_m2) {
+  return {.name = std::move(name), .note = {}, .ahead_m = ahead_m, .extra_m2 = extra_m2};
+}
+
+TEST(Explanation, NamesTheLimitsThatCostSomethingAndThoseThatDidNot) {
+  ExplainedStep explained = step_with(planned(0.5));
+  explained.limits = {limit("", 0.5, 0.0), limit("", 0.7, -0.2),
+                      limit("the lane boundary", 0.5, -0.012),
+                      limit("the end of its right of way", 0.93, -0.3),
+                      limit("zone 1 of policy mixed (at most 0.6 m/s)", 0.5, 0.0)};
+  explained.limits[0].vehicle = VehicleId{1};
+  explained.limits[1].vehicle = VehicleId{2};
+  explained.limits[3].note = "the road ahead is held by vehicle 4";
+  const std::string text = explanation(explained);
+  EXPECT_THAT(text, HasSubstr("\nwithout the areas of 2   a new plan 0.70 m ahead, -0.2 m^2\n"));
+  EXPECT_THAT(text,
+              HasSubstr("\nwithout the lane boundary   a new plan 0.50 m ahead, -0.012 m^2\n"));
+  EXPECT_THAT(text, HasSubstr("\nwithout the end of its right of way   a new plan 0.93 m ahead, "
+                              "-0.3 m^2\n                the road ahead is held by vehicle 4\n"));
+  EXPECT_THAT(text,
+              HasSubstr("the same without the areas of 1, zone 1 of policy mixed (at most 0.6 "
+                        "m/s), each alone\n"));
+}
+
+TEST(Explanation, OfAFallbackNamesTheLimitsWithoutWhichThereIsAPlan) {
+  ExplainedStep explained = step_with(kept(FallbackReason::kInfeasible, {}));
+  explained.limits = {{.name = "the lane boundary", .note = {}, .ahead_m = 0.3, .extra_m2 = {}},
+                      {.name = "zone 1", .note = {}, .ahead_m = {}, .extra_m2 = {}}};
+  const std::string text = explanation(explained);
+  EXPECT_THAT(text, HasSubstr("\nwithout the lane boundary   a new plan 0.30 m ahead\n"));
+  EXPECT_THAT(text, HasSubstr("the same without zone 1\n"));
+}
+
 TEST(Explanation, OfAVehicleThatIsAloneHasNoOthers) {
   ExplainedStep explained = step_with(planned(0.5));
   explained.others.clear();
