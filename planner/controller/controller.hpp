@@ -92,6 +92,7 @@ class Controller {
   /// it, and with right of way no authority reaches into it. All controllers of a run need the same
   /// ones. Not in the middle of a step.
   void add_obstacle(const ConvexPolygon& area_m) { standing_m_.push_back(area_m); }
+  [[nodiscard]] bool has_obstacles() const { return !standing_m_.empty(); }
   /// Whether the vehicle will meet the area if no other plan comes into force. Not in the middle of
   /// a step. @pre a plan is in force
   [[nodiscard]] bool will_meet(const ConvexPolygon& area_m) const;

@@ -138,6 +138,7 @@ PlanWithout Controller::plan_without(const LeftOut& left_out, const PreparedSubg
 PlanWithout Controller::search_again(const LeftOut& left_out) {
   HLC_DEMAND(!problems().empty());
   step_.left_out = left_out;
+  if (left_out.obstacles) standing_m_.clear();
   step_.candidate = {};
   search_candidate();
   return {.plan = step_.candidate.plan,

@@ -16,6 +16,7 @@ struct LeftOut {
   std::vector<VehicleId> vehicles{};  ///< nothing keeps clear of them
   bool boundary{};                    ///< of the drivable area
   bool authority{};                   ///< its end: the bar, and where it cuts the reference
+  bool obstacles{};                   ///< that are no vehicles
   [[nodiscard]] bool holds(VehicleId vehicle) const {
     return std::ranges::find(vehicles, vehicle) != vehicles.end();
   }

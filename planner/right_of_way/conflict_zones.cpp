@@ -62,4 +62,9 @@ class Zones {
 
 std::vector<std::uint32_t> conflict_zones(const ConflictMap& map) { return Zones(map).number(); }
 
+std::uint32_t zone_behind(const ConflictMap& map, std::size_t route, double s_m) {
+  const std::size_t next = map.index_of(route, map.count_at(route, s_m) + 1);
+  return conflict_zones(map)[map.cell(route, next)];
+}
+
 }  // namespace hlc::right_of_way

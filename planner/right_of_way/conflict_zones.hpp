@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,5 +15,8 @@ namespace hlc::right_of_way {
 /// For people only, who need a name for a place: cars are granted cells, not zones, and several
 /// cars may hold parts of one zone.
 [[nodiscard]] std::vector<std::uint32_t> conflict_zones(const ConflictMap& map);
+
+/// Number of the zone in the cell behind the one at this arc length; 0: none.
+[[nodiscard]] std::uint32_t zone_behind(const ConflictMap& map, std::size_t route, double s_m);
 
 }  // namespace hlc::right_of_way

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/plot/search_words.hpp"
+#include "planner/right_of_way/conflict_zones.hpp"
 #include "planner/search/alternatives.hpp"
 #include "planner/search/search_engine.hpp"
 #include "planner/search/search_options.hpp"
@@ -133,6 +134,16 @@ void add_chosen(const Limits& limits, const policy::SubgraphSelector& chosen,
   }
 }
 
+/// What begins where the road that the vehicle holds ends.
+std::string road_ahead(const Controller& controller, const Report& report) {
+  const right_of_way::ConflictMap& map = *controller.options().conflicts;
+  const std::uint32_t zone =
+      report.held ? right_of_way::zone_behind(map, report.held->route,
+                                              report.held->place_m + report.held->ahead_m)
+                  : 0;
+  return zone == 0 ? "the road ahead" : fmt::format("conflict zone {}, next,", zone);
+}
+
 /// Whether the step's search decided on what was driven.
 bool is_by_search(const Report& report) {
   return report.status == StepStatus::kPlanned || report.reason == FallbackReason::kInfeasible ||
@@ -183,8 +194,12 @@ StepAnswers answers_of(const Controller& controller, const policy::SubgraphSelec
     answers.limits.push_back(limits.without("the end of its right of way", {.authority = true}));
     const std::vector<VehicleId> by = controller.road_withheld_by();
     if (!by.empty()) {
-      answers.limits.back().note = "the road ahead is held by " + coordination::vehicles_text(by);
+      answers.limits.back().note = fmt::format("{} is held by {}", road_ahead(controller, report),
+                                               coordination::vehicles_text(by));
     }
+  }
+  if (controller.has_obstacles()) {
+    answers.limits.push_back(limits.without("the obstacles", {.obstacles = true}));
   }
   add_chosen(limits, chosen, policy, answers.limits);
   return answers;

@@ -37,6 +37,17 @@ TEST(ConflictZones, BothRoutesThroughACrossingPassTheSameOnes) {
   EXPECT_EQ(numbers_on(map, 1), (std::set<std::uint32_t>{1, 2}));
 }
 
+TEST(ConflictZones, TheOneBehindAPlaceBeginsInTheNextCell) {
+  const std::vector<road::DrivableRoute> routes{circle({0.0, 0.0}, 1.0), circle({1.2, 0.0}, 1.0)};
+  const ConflictMap map(routes, kCar);
+  const std::vector<std::uint32_t> zones = conflict_zones(map);
+  for (std::size_t i = 0; i < map.num_cells(0); ++i) {
+    const double s_m = map.cell_m(0) * static_cast<double>(i);
+    const std::size_t next = (i + 1) % map.num_cells(0);
+    EXPECT_EQ(zone_behind(map, 0, s_m), zones[map.cell(0, next)]) << i;
+  }
+}
+
 TEST(ConflictZones, ARouteThatMeetsNoOtherHasNone) {
   const std::vector<road::DrivableRoute> routes{circle({0.0, 0.0}, 1.0), circle({0.0, 0.0}, 2.0)};
   const ConflictMap map(routes, kCar);

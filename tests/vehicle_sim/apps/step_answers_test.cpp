@@ -74,12 +74,36 @@ TEST(StepAnswers, WithoutALimitNoPlanCostsMoreAndOneThatStandsAtTheEndOfItsRoadG
     const ExplainedStep::Limit* const end = named(answers, "the end of its right of way");
     if (end == nullptr || end->note.empty()) return;
     ++num_held;
-    EXPECT_THAT(end->note, HasSubstr("the road ahead is held by vehicle"));
+    EXPECT_THAT(
+        end->note,
+        testing::MatchesRegex("(the road ahead|conflict zone [0-9]+, next,) is held by vehicle.*"));
     EXPECT_GE(*end->ahead_m, ahead_m(seen.controller)) << "vehicle " << seen.report.vehicle.value;
   });
   EXPECT_THAT(that_cost,
               testing::IsSupersetOf({"the lane boundary", "the end of its right of way"}));
   EXPECT_GT(num_held, 0U);
+}
+
+TEST(StepAnswers, AnObstacleOfAForkCostsTheCarInFrontOfIt) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
+  const scenario::ScenarioVehicle& car = scenario.vehicles.front();
+  const double s_m = car.start_s_m + 2.0;
+  const Point at_m = car.path.at(s_m);
+  const closed_loop::Fork::Obstacle wall{
+      .pose = {at_m.x(), at_m.y(), car.path.heading_rad_at(s_m)}, .length_m = 0.05, .width_m = 0.6};
+  double most_saved_m2 = 0.0;
+  closed_loop::ExperimentOptions options{.steps = 30};
+  options.forks = {{.from = 0, .changes = {wall}}};
+  drive(scenario, options, [&](const Seen& seen) {
+    if (seen.report.vehicle != car.id) return;
+    const StepAnswers answers =
+        answers_of(seen.controller, seen.chosen, seen.report, scenario.policy);
+    const ExplainedStep::Limit* const obstacles = named(answers, "the obstacles");
+    if (obstacles == nullptr || !obstacles->extra_m2) return;
+    most_saved_m2 = std::max(most_saved_m2, -*obstacles->extra_m2);
+  });
+  EXPECT_GT(most_saved_m2, 0.1);
 }
 
 TEST(StepAnswers, TheAreasOfACarThatPlansBeforeCostSomethingSomewhere) {
