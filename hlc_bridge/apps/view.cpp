@@ -52,7 +52,10 @@ void declare(CLI::App& app, Flags& flags) {
       ->delimiter(',')
       ->check(hlc::apps::vehicle_id_range());
   app.add_option("--logs", flags.logs,
-                 "folder in which the processes write their logs (*.log), for the page");
+                 fmt::format("folder in which the processes write their logs (*.log): the page "
+                             "shows their first {} lines",
+                             hlc::record::kMostLoggedLines))
+      ->check(CLI::ExistingDirectory);
   hlc::apps::declare_scenario_flags(app, flags.scenario);
   app.add_option("--simulated_time", flags.network.simulated_time,
                  "of the run; true: logical time, false: real time")

@@ -170,7 +170,8 @@ bool is_known(RunPhase phase) {
 }
 
 bool has_valid_plan(const ReportMessage& wire) {
-  return wire.plan_trims().size() == wire.plan_labels().size() &&
+  return wire.plan_trims().size() <= kMaxEntries &&
+         wire.plan_trims().size() == wire.plan_labels().size() &&
          std::ranges::all_of(wire.plan_labels(),
                              [](const std::string& label) { return label.size() <= kMaxText; });
 }
@@ -193,7 +194,7 @@ bool is_valid(const ReportMessage& wire) {
          all_finite(wire.cost_m2(), wire.gap_m2(), wire.deviation_m()) &&
          is_valid(wire.coupled()) && is_valid(wire.missing()) && is_valid(wire.waits_for()) &&
          is_valid(wire.blocked_by()) && wire.waits_since() <= wire.step() && has_valid_plan(wire) &&
-         all_finite(wire.held_place_m(), wire.held_ahead_m());
+         is_near(wire.held_place_m()) && is_near(wire.held_ahead_m());
 }
 
 }  // namespace

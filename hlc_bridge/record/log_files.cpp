@@ -9,6 +9,7 @@
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "planner/common/text_file.hpp"
@@ -49,9 +50,9 @@ result::LoggedLine parse_line(const std::string& process, const std::string& lin
 
 std::vector<std::filesystem::path> log_files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  if (!std::filesystem::is_directory(folder)) return files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const bool is_log = entry.is_regular_file() && entry.path().extension() == ".log";
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const bool is_log = entry.is_regular_file(error) && entry.path().extension() == ".log";
     if (is_log) files.push_back(entry.path());
   }
   std::ranges::sort(files);
@@ -122,6 +123,7 @@ std::vector<result::LoggedLine> GrowingLogs::new_lines(const result::RunFacts& f
       if (!line.empty()) lines.push_back(parse_line(file.stem().string(), line, facts));
     }
   }
+  std::ranges::stable_sort(lines, {}, &result::LoggedLine::stamp);
   num_lines_ += lines.size();
   if (num_lines_ > kMostLoggedLines) {
     lines.resize(lines.size() - (num_lines_ - kMostLoggedLines));

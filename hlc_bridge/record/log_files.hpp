@@ -22,12 +22,14 @@ inline constexpr std::size_t kMostLoggedLines = 5000;
                                                         const result::RunFacts& facts);
 
 /// The same while the processes write: their new lines, again and again. A line without its end is
-/// left for the next time; lines beyond kMostLoggedLines are left out, and one more states that.
+/// left for the next time; lines beyond kMostLoggedLines, counted from the first call on, are left
+/// out, and one more states that. Lines that are read before the first step is known have no time
+/// of the run.
 class GrowingLogs {
  public:
   explicit GrowingLogs(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Since the last call, by file. Files that cannot be read have none, for now.
+  /// Since the last call, by their stamps. Files that cannot be read have none, for now.
   [[nodiscard]] std::vector<result::LoggedLine> new_lines(const result::RunFacts& facts);
 
  private:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -155,11 +156,21 @@ class RowReader {
       return std::nullopt;
     }
     const auto route = static_cast<std::uint32_t>(whole(0, ~std::uint32_t{0}));
-    const double place_m = number();
-    return coordination::HeldRoad{route, place_m, number()};
+    const double place_m = length_m();
+    return coordination::HeldRoad{route, place_m, length_m()};
   }
 
  private:
+  /// Along a road.
+  double length_m() {
+    const double value_m = table_.number(row_, column_);
+    if (!(std::abs(value_m) <= kLargestCoordinate_m)) {
+      table_.refuse(row_, column_, fmt::format("at most {:g} m", kLargestCoordinate_m));
+    }
+    ++column_;
+    return value_m;
+  }
+
   const CsvTable& table_;
   std::size_t row_;
   std::size_t column_{};

@@ -40,7 +40,8 @@ std::vector<const automaton::Maneuver*> planned_maneuvers(
   std::vector<const automaton::Maneuver*> maneuvers;
   TrimId from = report.planned_trim;
   for (const auto& [to, label] : report.plan) {
-    if (label == automaton::kSelfLoopLabel) from = to;  // see maneuver_during
+    const bool is_first = maneuvers.empty();
+    if (is_first && label == automaton::kSelfLoopLabel) from = to;  // see maneuver_during
     const automaton::Maneuver* const maneuver = automaton.find(from, to, label);
     if (maneuver == nullptr) break;
     maneuvers.push_back(maneuver);

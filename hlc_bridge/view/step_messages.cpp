@@ -1,5 +1,9 @@
 #include "hlc_bridge/view/step_messages.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -34,6 +38,12 @@ Json maneuver_json(const automaton::Maneuver& maneuver, const vehicle::VehiclePa
   return json;
 }
 
+std::string labels_of(const coordination::Report& report) {
+  std::vector<std::string> labels;
+  for (const auto& [to, label] : report.plan) labels.push_back(label);
+  return fmt::format("{}", fmt::join(labels, ", "));
+}
+
 /// The reports of one vehicle, column by column.
 class StepColumns {
  public:
@@ -49,6 +59,7 @@ class StepColumns {
     put("reason", static_cast<int>(report.reason));
     put("quality", static_cast<int>(report.quality));
     put("plan", sets_.number_of(plan));
+    put("plan_labels", names_.number_of(labels_of(report)));
     put("held", sets_.number_of(held_cells(report)));
     put("label", names_.number_of(report.maneuver));
     put("subgraph", names_.number_of(report.subgraph));
@@ -78,7 +89,7 @@ class StepColumns {
     json["tables"] = {{"status", "statuses"}, {"reason", "reasons"}, {"quality", "qualities"},
                       {"label", "names"},     {"subgraph", "names"}, {"coupled", "sets"},
                       {"missing", "sets"},    {"waits_for", "sets"}, {"blocked_by", "sets"},
-                      {"plan", "sets"},       {"held", "sets"}};
+                      {"plan", "sets"},       {"held", "sets"},      {"plan_labels", "names"}};
     json["units"] = {{"cost_m2", kUnit_m2},
                      {"gap_m2", kUnit_m2},
                      {"deviation_m", kUnit_m},
@@ -96,9 +107,10 @@ class StepColumns {
     if (!is_known) return {};
     const auto& [route, place_m, ahead_m] = *report.held;
     const std::int64_t first = conflicts_->count_at(route, place_m);
-    const std::int64_t last = conflicts_->count_at(route, place_m + ahead_m);
+    const std::int64_t count = conflicts_->count_at(route, place_m + ahead_m) - first + 1;
+    const auto whole_route = static_cast<std::int64_t>(conflicts_->num_cells(route));
     return {static_cast<int>(route), static_cast<int>(conflicts_->index_of(route, first)),
-            static_cast<int>(last - first + 1)};
+            static_cast<int>(std::clamp<std::int64_t>(count, 0, whole_route))};
   }
   void put(const char* name, Json value) { columns_[name].push_back(std::move(value)); }
 

@@ -190,9 +190,9 @@ class Controller {
     return step_.entry_problems;
   }
 
-  /// After the last phase of a step in which `plan` searched: what it would have found without
-  /// these limits, given the same messages; without any left out: what it did find. Changes
-  /// nothing.
+  /// After the last phase of a step in which `plan` searched: the best plan without these limits,
+  /// given the same messages; of equal ones that in force. Without any left out: what it did find,
+  /// if its budget sufficed. Changes nothing.
   /// @param on  instead of the subgraph in force; prepared as for `switch_to`
   /// @pre `problems` is not empty
   [[nodiscard]] PlanWithout plan_without(const LeftOut& left_out) const;

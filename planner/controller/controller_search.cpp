@@ -75,10 +75,13 @@ void Controller::keep_in_lane_where_held_up(const search::HorizonProblem& proble
   within.incumbent =
       options_.strategies.incumbent(*step_.candidate.plan, step_.next(), options_.horizon_steps);
   PlanCandidate first = step_.candidate;
+  const auto num_first = static_cast<std::ptrdiff_t>(first.problems.size());
   coordination::Report report = step_.report;
   search_plan(std::move(within), budget_share);
   if (step_.candidate.plan) return;
   first.problems = std::move(step_.candidate.problems);
+  const auto own = first.problems.begin() + num_first - 1;  // the last one is that of the plan
+  std::rotate(own, own + 1, first.problems.end());
   step_.candidate = std::move(first);
   report.generated = step_.report.generated;
   report.expanded = step_.report.expanded;
@@ -133,8 +136,8 @@ PlanWithout Controller::plan_without(const LeftOut& left_out, const PreparedSubg
   return other.search_again(left_out);
 }
 
-/// The plan in force continues the same way as in the step's own search: up to t(k+1) a new one
-/// that has come into force is the former one.
+/// The plan in force continues as in the step's own search: up to t(k+1) one that has come into
+/// force is the former one. From there on it is the incumbent of these searches.
 PlanWithout Controller::search_again(const LeftOut& left_out) {
   HLC_DEMAND(!problems().empty());
   step_.left_out = left_out;

@@ -26,18 +26,7 @@ struct LeftOut {
 struct PlanWithout {
   std::optional<coordination::Plan> plan;  ///< none: there is none
   double cost_m2{};                        ///< of the plan, in `problem`
-  search::HorizonProblem problem;          ///< the one that was searched last
+  search::HorizonProblem problem;          ///< of the plan; without one, the last that was searched
 };
-
-/// Cost of the positions of a plan's steps from t(next) on in a problem that begins there [m^2]:
-/// its whole cost but for the criteria of its maneuvers.
-[[nodiscard]] inline double position_cost_m2(const coordination::Plan& plan, StepIndex next,
-                                             const search::HorizonProblem& problem) {
-  double sum_m2 = 0.0;
-  for (std::size_t j = 0; j < problem.horizon_steps(); ++j) {
-    sum_m2 += problem.position_cost_m2(j, plan.pose_at({next.value + j + 1}).position_m());
-  }
-  return sum_m2;
-}
 
 }  // namespace hlc::controller

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "planner/automaton/trim_id.hpp"
@@ -22,6 +23,13 @@ struct OccupiedAreas {
 
   /// @pre step >= first
   [[nodiscard]] const ConvexPolygon& during(StepIndex step) const;
+};
+
+/// Part of a plan: the maneuver (or self-loop) of one step.
+struct PlannedManeuver {
+  TrimId to;  ///< trim in which it ends
+  std::string label;
+  friend bool operator==(const PlannedManeuver&, const PlannedManeuver&) = default;
 };
 
 /// Which part of a route shared with others a vehicle holds: from its place to the end of its

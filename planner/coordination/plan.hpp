@@ -5,7 +5,6 @@
 
 #include "planner/automaton/subgraph.hpp"
 #include "planner/coordination/messages.hpp"
-#include "planner/coordination/report.hpp"
 
 namespace hlc::coordination {
 

@@ -55,18 +55,11 @@ enum class PlanQuality : std::uint8_t {
 /// "vehicle 3", "vehicles 3, 5".
 [[nodiscard]] std::string vehicles_text(const std::vector<VehicleId>& vehicles);
 
-/// Part of a plan: the maneuver (or self-loop) of one step.
-struct PlannedManeuver {
-  TrimId to;  ///< trim in which it ends
-  std::string label;
-  friend bool operator==(const PlannedManeuver&, const PlannedManeuver&) = default;
-};
-
 /// Road that a vehicle holds with right of way (LaneClaim), as a step ends.
 struct HeldRoad {
   std::uint32_t route{};  ///< index in the run's conflict map
-  double place_m{};       ///< arc length of the planned place at t(k)
-  double ahead_m{};       ///< from there to the end of its authority
+  double place_m{};       ///< arc length of the planned place at t(k), in [0, length)
+  double ahead_m{};       ///< from there to the end of its authority, >= 0
   friend bool operator==(const HeldRoad&, const HeldRoad&) = default;
 };
 

@@ -89,9 +89,8 @@ class Drives {
 
  private:
   /// @param look  at the vehicle's controller after the step
-  [[nodiscard]] Driven drive(
-      hlc::closed_loop::ExperimentOptions options,
-      const decltype(hlc::closed_loop::ExperimentOptions::after_step)& look) const {
+  [[nodiscard]] Driven drive(hlc::closed_loop::ExperimentOptions options,
+                             const hlc::closed_loop::ExperimentOptions::AfterStep& look) const {
     Driven driven;
     options.after_step = [&](const hlc::controller::Controller& controller,
                              const hlc::policy::SubgraphSelector& chosen,
@@ -190,8 +189,8 @@ int main(int argc, char** argv) {
   CLI::Option* const all = app.add_flag(
       "--all", choices.all,
       "instead: explains every step in which a vehicle begins to keep its plan, to stop, to wait "
-      "or "
-      "to miss others, by searches alone (the run is driven once; some seconds for 20 cars and 150 "
+      "or to miss others, by searches alone (the run is driven once; some seconds for 20 cars and "
+      "150 "
       "steps), writes explanations.csv into the run folder and its run.html again with them");
   CLI::Option* const problems = app.add_option(
       "--problems", choices.problems, "folder for the step's planning problems, for plan_problem");

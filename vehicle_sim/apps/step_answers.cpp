@@ -17,8 +17,8 @@ namespace {
 using controller::Controller;
 using controller::LeftOut;
 using controller::PlanWithout;
-using controller::position_cost_m2;
 using coordination::FallbackReason;
+using coordination::PlanQuality;
 using coordination::Report;
 using coordination::StepStatus;
 
@@ -28,6 +28,17 @@ double ahead_m(const coordination::Plan& plan, StepIndex next) {
     sum_m += (plan.pose_at({step.value + 1}).position_m() - plan.pose_at(step).position_m()).norm();
   }
   return sum_m;
+}
+
+/// Cost of the positions of a plan's steps from t(next) on in a problem that begins there [m^2]:
+/// its whole cost but for the criteria of its maneuvers.
+double position_cost_m2(const coordination::Plan& plan, StepIndex next,
+                        const search::HorizonProblem& problem) {
+  double sum_m2 = 0.0;
+  for (std::size_t j = 0; j < problem.horizon_steps(); ++j) {
+    sum_m2 += problem.position_cost_m2(j, plan.pose_at({next.value + j + 1}).position_m());
+  }
+  return sum_m2;
 }
 
 StepIndex next_of(const Controller& controller) { return {controller.last_step().value + 1}; }
@@ -146,8 +157,8 @@ std::string road_ahead(const Controller& controller, const Report& report) {
 
 /// Whether the step's search decided on what was driven.
 bool is_by_search(const Report& report) {
-  return report.status == StepStatus::kPlanned || report.reason == FallbackReason::kInfeasible ||
-         report.reason == FallbackReason::kBudget;
+  if (report.status == StepStatus::kPlanned) return report.quality != PlanQuality::kBudget;
+  return report.reason == FallbackReason::kInfeasible;
 }
 
 }  // namespace
@@ -181,7 +192,8 @@ StepAnswers answers_of(const Controller& controller, const policy::SubgraphSelec
   const Limits limits(controller);
   if (!limits.explain(report)) return answers;
   const std::vector<VehicleId> vehicles = in_problem(report);
-  if (!vehicles.empty()) {
+  const std::vector<VehicleId> withheld_by = controller.road_withheld_by();
+  if (!vehicles.empty() || !withheld_by.empty()) {
     answers.alone =
         limits.without("", {.vehicles = vehicles, .authority = controller.has_authority()});
   }
@@ -192,10 +204,9 @@ StepAnswers answers_of(const Controller& controller, const policy::SubgraphSelec
   answers.limits.push_back(limits.without("the lane boundary", {.boundary = true}));
   if (controller.has_authority()) {
     answers.limits.push_back(limits.without("the end of its right of way", {.authority = true}));
-    const std::vector<VehicleId> by = controller.road_withheld_by();
-    if (!by.empty()) {
+    if (!withheld_by.empty()) {
       answers.limits.back().note = fmt::format("{} is held by {}", road_ahead(controller, report),
-                                               coordination::vehicles_text(by));
+                                               coordination::vehicles_text(withheld_by));
     }
   }
   if (controller.has_obstacles()) {

@@ -24,7 +24,7 @@ namespace hlc::apps {
 [[nodiscard]] std::string zone_name(const policy::SubgraphSelector& chosen,
                                     const std::string& policy);
 
-/// ExplainedStep::choice, limits and alone_searched of a step.
+/// ExplainedStep::choice, limits and alone of a step.
 struct StepAnswers {
   std::optional<ExplainedStep::Choice> choice;
   std::vector<ExplainedStep::Limit> limits;
@@ -36,7 +36,7 @@ struct StepAnswers {
 /// @param report      of the step
 /// @param policy      name of the policy in force
 /// @return nothing where the step's plan does not follow from the step's search: none was made, the
-/// plan found did not come into force, or the budget ended it
+/// plan found did not come into force, or the budget ended a search
 [[nodiscard]] StepAnswers answers_of(const controller::Controller& controller,
                                      const policy::SubgraphSelector& chosen,
                                      const coordination::Report& report, const std::string& policy);

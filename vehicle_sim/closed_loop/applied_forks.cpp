@@ -78,7 +78,6 @@ struct AppliedForks::Step {
   }
 
   void apply(const Fork::Route& change) const {
-    if (gone.contains(change.vehicle)) return;
     controller::Controller& controller = member_of(change.vehicle, members).hlc.controller();
     controller.change_route(*std::ranges::find(routes, change.name, &road::DrivableRoute::name));
     if (controller.fits_route()) return;

@@ -271,7 +271,7 @@ class Lab {
   lab_control::LabRunSettings settings_;
   lab_control::LogicalRun run_;
   controller::JointStepRules rules_;
-  decltype(ExperimentOptions::after_step) after_step_;
+  ExperimentOptions::AfterStep after_step_;
   std::function<Nanoseconds()> wall_clock_;
   std::function<Nanoseconds()> cpu_clock_;
   std::vector<Member> members_;  ///< in the order of priorities

@@ -36,9 +36,9 @@ struct ExperimentOptions {
   std::optional<controller::PreparedSubgraph> prepared{};
   /// Receives each controller at the end of its step, once its report is complete, with what chose
   /// its subgraph. May be absent.
-  std::function<void(const controller::Controller&, const policy::SubgraphSelector&,
-                     const coordination::Report&)>
-      after_step{};
+  using AfterStep = std::function<void(
+      const controller::Controller&, const policy::SubgraphSelector&, const coordination::Report&)>;
+  AfterStep after_step{};
 };
 
 /// Wall time of a run by part. The rest of RunFacts::wall_s: state lists, commands, lab control,

@@ -56,7 +56,8 @@ export class MapView {
       zones.forEach((zone, i) => {
         if (!zone) return;
         (this.zone_places[zone] ??= []).push(places[i]);
-        this.zones.addPath(path_through([places[i], places[(i + 1) % places.length]]));
+        this.zones.moveTo(...places[i]);
+        this.zones.lineTo(...places[(i + 1) % places.length]);
       });
     }
     if (this.is_fitted) this.fit();
@@ -120,6 +121,7 @@ export class MapView {
   }
 
   /// @param name  of the colour
+  /// @param dashes  in px
   stroke(path, name, width_px, dashes = [], opacity = 1) {
     const { context, scale } = this;
     const lineWidth = width_px / scale;

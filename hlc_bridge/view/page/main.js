@@ -205,6 +205,7 @@ export function report(text) {
   by_id("fault").textContent = text;
 }
 
+/// @throws error
 export function refuse_run(error) {
   report(`This run cannot be shown: ${error.message}`);
   throw error;

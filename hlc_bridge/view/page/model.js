@@ -202,11 +202,10 @@ export class Run {
 
   /// Box of all there is to see.
   box() {
-    const points = this.lanes.flat(2);
+    let points = this.lanes.flat(2);
     for (const vehicle of this.vehicles) {
-      const planned = vehicle.steps.filter(({ label }) => label);
-      points.push(...vehicle.route, ...this.driven_path(vehicle, 0, Infinity));
-      points.push(...planned.map(({ pose }) => [pose.x, pose.y]));
+      const planned = vehicle.steps.filter(({ label }) => label).map(({ pose }) => [pose.x, pose.y]);
+      points = points.concat(vehicle.route, this.driven_path(vehicle, 0, Infinity), planned);
     }
     const most = (pick) =>
       [0, 1].map((i) => points.reduce((least, p) => pick(least, p[i]), pick()));

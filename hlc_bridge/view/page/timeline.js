@@ -81,6 +81,7 @@ export class TimeLine {
     return kLeft_px + (this.width * t) / Math.max(this.run.end_s, 1e-9);
   }
 
+  /// May be outside the run.
   time_at(x) {
     return ((x - kLeft_px) / this.width) * this.run.end_s;
   }

@@ -84,9 +84,8 @@ export const kTerms = {
   "coupled with": "cars that may come close soon: they plan one after the other",
   maneuver: "driven in this step; named after its criterion, or trim: constant speed and steering",
   subgraph: "the trims and maneuvers that it may use",
-  why: "or the command that finds out, with the folder of the run",
   plan: "maneuvers from this step on, until it stands",
-  "zones held": "where routes cross or merge: who holds a zone may drive there",
+  "zones held": "where routes cross or merge: a car holds parts of them",
   level: "0 plans first, the others wait for the plans of lower levels",
 };
 
@@ -121,10 +120,10 @@ function pose_words(pose) {
 function zone_rows(run, vehicle, k) {
   if (run.roads.length === 0) return [];
   const { zones, next } = run.held_in(vehicle, k);
-  const holds = (one) => run.held_in(one, k).zones.includes(next);
+  const holds = (one) => one !== vehicle && run.held_in(one, k).zones.includes(next);
   return [
     ["zones held", zones.join(", ") || "none"],
-    ...(next ? [[`zone ${next}, next, held by`, run.vehicles.filter(holds).map(({ id }) => id)]] : []),
+    ...(next ? [[`parts of zone ${next}, next, held by`, run.vehicles.filter(holds).map(({ id }) => id)]] : []),
   ];
 }
 
@@ -142,6 +141,7 @@ export function report_rows(run, vehicle, t) {
   }
   if (!report) return rows;
   const { k, status, reason, quality, gap_m2, level } = report;
+  const why = vehicle.whys[k] || run.about.why;
   const gap = gap_m2 > 0 ? `, at most ${gap_m2.toFixed(4)} m2 above the optimum` : "";
   return [
     ...rows,
@@ -150,8 +150,8 @@ export function report_rows(run, vehicle, t) {
     ["coupled with", report.coupled],
     ["missing", report.missing],
     ["maneuver", report.label || "no plan yet"],
-    ["why", vehicle.whys[k] || `explain RUN --vehicle ${vehicle.id} --step ${k}`],
-    ["plan", run.plan_in(vehicle, k).map(({ label }) => label).join(", ")],
+    ...(why ? [["why", why]] : []),
+    ["plan", report.plan_labels],
     ...zone_rows(run, vehicle, k),
     ["subgraph", report.subgraph],
     ["plan found", kQualities[quality] + gap],

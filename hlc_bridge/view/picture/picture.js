@@ -14,12 +14,12 @@ const kLine_px = 17;
 const kBadge_px = 28;
 const kCars_px = 78; // where the list of cars begins
 const kAlarms = ["fallback", "stop", "stuck", "silent"];
-const kLayers = { reference: true, planned: true, driven: true, areas: true, labels: true };
+const kLayers = { reference: true, planned: true, driven: true, areas: true, labels: true, zones: true };
 const kLegend = [
   ["reference path", (panel, y) => panel.sample(y, "muted", 1, [2, 4])],
   ["planned", (panel, y) => panel.sample(y, "muted", 3, [7, 4])],
   ["driven", (panel, y) => panel.sample(y, "muted", 3)],
-  ["area of this maneuver", (panel, y) => panel.box(y, "line", "muted")],
+  ["areas of the plan", (panel, y) => panel.box(y, "line", "muted")],
   ["waits for", (panel, y) => panel.sample(y, "alarm", 2)],
   ["keeps its plan, stops or is stuck", (panel, y) => panel.box(y, "ground", "alarm")],
 ];

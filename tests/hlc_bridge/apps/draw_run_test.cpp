@@ -168,6 +168,19 @@ class DrawRun : public testing::Test {
   inline static std::unique_ptr<TemporaryFolder> campaign;
 };
 
+TEST_F(DrawRun, ConflictZonesOfARunWithRightOfWayAreInThePictureByTheirNumbers) {
+  if (!can_draw()) GTEST_SKIP() << "no chromium or no ffmpeg on this machine";
+  const Outcome driven = run_program(
+      "evaluate --scenario lab_cars --cars 2 --starts 1 --steps 5 --keep_runs --scenario_folder " +
+      source_folder() + "/launch_scripts/scenarios --out " + file("runs").string());
+  ASSERT_EQ(driven.exit_code, 0) << driven.output;
+  const Outcome outcome =
+      run_program(fmt::format("draw_run {} --at 0.5 --out {}",
+                              (file("runs") / "runs" / "0").string(), file("frame.svg").string()));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(read_text(file("frame.svg")), HasSubstr("zone 1"));
+}
+
 TEST_F(DrawRun, TheCarsAreInBothKindsOfPicturesWhereTheyDrove) {
   if (!can_draw()) GTEST_SKIP() << "no chromium or no ffmpeg on this machine";
   const std::string svg = read_text(drawn("frame.svg"));

@@ -205,6 +205,9 @@ TEST(OwnConversionRefuses, APlanOfWhichTrimsOrLabelsAreMissing) {
   EXPECT_FALSE(from_wire(report).message.has_value());
   report.plan_labels({"J2", std::string(kMaxText + 1, 'x')});
   EXPECT_FALSE(from_wire(report).message.has_value());
+  report.plan_labels({"J2", "J1"});
+  report.held_ahead_m(1e300);
+  EXPECT_FALSE(from_wire(report).message.has_value());
 }
 
 TEST(OwnConversionRefuses, NamesThatNobodyGives) {

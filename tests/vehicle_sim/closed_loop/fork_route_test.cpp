@@ -187,7 +187,8 @@ TEST(ForkRoute, AtRandomCarsNeverMeetAndTheRunBeforeIsTheSame) {
       std::optional<Experiment> run;
       try {
         run = drive(*scenario, {{.from = from, .changes = {change}}});
-      } catch (const std::invalid_argument&) {
+      } catch (const std::invalid_argument& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("must be a route that vehicle"));
         continue;
       }
       ++driven;
