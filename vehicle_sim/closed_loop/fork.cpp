@@ -143,7 +143,7 @@ class ChangeText {
 
   [[nodiscard]] Fork::Route route() const {
     const auto [id, name] = halves(':', "route=VEHICLE:ROUTE");
-    const Fork::Route result{.vehicle = vehicle(id), .name = name};
+    Fork::Route result{.vehicle = vehicle(id), .name = name};
     std::vector<std::string> names;
     for (const road::DrivableRoute& one : scenario_.routes) names.push_back(one.name);
     if (std::ranges::count(names, name) > 0) return result;
