@@ -31,6 +31,7 @@ view::FinishedRun finished_run(record::RunFolder read, std::string fault) {
   if (read.scenario.map_file) run.map = road::read_lanelet_map(*read.scenario.map_file);
   run.log = record::read_logs(read.folder / "logs", read.facts);
   run.explanations = record::read_explanations(read.folder, read.rows);
+  run.can_be_explained = read.facts.simulated_time && !read.rows.empty();
   run.time = read.facts.simulated_time ? "logical time" : "real time";
   run.description = std::move(read.description);
   run.facts = std::move(read.facts);

@@ -42,9 +42,10 @@ struct FinishedRun {
   std::optional<road::LaneletMap> map;  ///< none: open ground
   std::vector<result::LoggedLine> log;
   std::vector<result::Explanation> explanations;
-  std::string time;      ///< kind of time, as text: "logical time"
-  std::string revision;  ///< of the programs
-  std::string fault;     ///< what was wrong with the drive; empty: nothing
+  std::string time;         ///< kind of time, as text: "logical time"
+  std::string revision;     ///< of the programs
+  std::string fault;        ///< what was wrong with the drive; empty: nothing
+  bool can_be_explained{};  ///< explain can drive it again
 };
 
 /// All messages of the run as one JSON array. Equal runs give equal bytes. Bytes that are not UTF-8

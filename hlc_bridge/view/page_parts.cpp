@@ -16,6 +16,8 @@ namespace {
 
 constexpr int kFormat = 2;  ///< page/model.js has the same
 constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
+constexpr const char* kHowToExplain =
+    "explain RUN --vehicle N --step K answers it; explain RUN --all fills this row";
 
 /// Names of the enumerators from 0 to `last`.
 template <class Enum>
@@ -104,22 +106,19 @@ std::map<VehicleId, std::size_t> colours_of(const FinishedRun& run) {
 
 Json run_message(const FinishedRun& run) {
   const result::RunDescription& description = run.description;
-  Json json{
-      {"kind", "run"},
-      {"format", kFormat},
-      {"unit_m", kUnit_m},
-      {"unit_rad", kUnit_rad},
-      {"scenario", description.scenario},
-      {"about", about(run)},
-      {"fault", faults(run)},
-      {"why", run.facts.simulated_time && !run.rows.empty()
-                  ? "explain RUN --vehicle N --step K answers it; explain RUN --all fills this row"
-                  : ""},
-      {"step_s", description.step_s},
-      {"stuck_after_s", coordination::kStuckAfter_s},
-      {"statuses", names_up_to(coordination::StepStatus::kMinimalRiskStop)},
-      {"reasons", names_up_to(coordination::FallbackReason::kOffRoute)},
-      {"qualities", names_up_to(coordination::PlanQuality::kUnproven)}};
+  Json json{{"kind", "run"},
+            {"format", kFormat},
+            {"unit_m", kUnit_m},
+            {"unit_rad", kUnit_rad},
+            {"scenario", description.scenario},
+            {"about", about(run)},
+            {"fault", faults(run)},
+            {"why", run.can_be_explained ? kHowToExplain : ""},
+            {"step_s", description.step_s},
+            {"stuck_after_s", coordination::kStuckAfter_s},
+            {"statuses", names_up_to(coordination::StepStatus::kMinimalRiskStop)},
+            {"reasons", names_up_to(coordination::FallbackReason::kOffRoute)},
+            {"qualities", names_up_to(coordination::PlanQuality::kUnproven)}};
   json["lanes"] = Json::array();
   if (run.map) {
     for (const auto& [id, lanelet] : run.map->lanelets) {

@@ -238,7 +238,7 @@ TEST_F(PageInBrowser, ARunWithoutRightOfWayOffersNoZones) {
 
 TEST_F(PageInBrowser, AReportOfLogicalTimeHasItsExplanationOrTheCommandThatFindsIt) {
   FinishedRun run = sample_run(2, 20);
-  run.facts.simulated_time = true;
+  run.can_be_explained = true;
   const json result = result_of(run, R"(
     page.run.take({ kind: "why", vehicle: 2, steps: [[5, "did\n<b>stood</b>"]] });
     page.select(2);
