@@ -1,36 +1,17 @@
 #include "hlc_bridge/mcap/merge.hpp"
 
 #include <algorithm>
-#include <boost/interprocess/file_mapping.hpp>
-#include <boost/interprocess/mapped_region.hpp>
 #include <map>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
 
 #include "hlc_bridge/mcap/indexed_file.hpp"
+#include "hlc_bridge/mcap/mapped_file.hpp"
 #include "hlc_bridge/mcap/records.hpp"
 
 namespace hlc::mcap {
 namespace {
-
-/// A file in memory, as far as it is looked at.
-class MappedFile {
- public:
-  explicit MappedFile(const std::filesystem::path& file) try
-      : mapping_(file.c_str(), boost::interprocess::read_only),
-        region_(mapping_, boost::interprocess::read_only) {
-  } catch (const boost::interprocess::interprocess_exception& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
-  }
-  [[nodiscard]] std::string_view bytes() const {
-    return {static_cast<const char*>(region_.get_address()), region_.get_size()};
-  }
-
- private:
-  boost::interprocess::file_mapping mapping_;
-  boost::interprocess::mapped_region region_;
-};
 
 /// Reads the parts, and keeps where their messages are.
 class Messages {

@@ -165,4 +165,17 @@ std::optional<Message> message_in(std::string_view content) {
   return message;
 }
 
+std::optional<std::string_view> records_in_chunk(std::string_view content) {
+  Fields fields(content);
+  static_cast<void>(fields.number<std::uint64_t>());  // first log time
+  static_cast<void>(fields.number<std::uint64_t>());  // last
+  static_cast<void>(fields.number<std::uint64_t>());  // size
+  static_cast<void>(fields.number<std::uint32_t>());  // checksum
+  const bool is_compressed = !fields.text().empty();
+  const auto size = fields.number<std::uint64_t>();
+  const std::string_view records = fields.rest();
+  if (fields.has_failed() || is_compressed || records.size() != size) return std::nullopt;
+  return records;
+}
+
 }  // namespace hlc::mcap

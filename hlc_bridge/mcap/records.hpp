@@ -97,5 +97,7 @@ struct NumberedChannel {
 [[nodiscard]] std::optional<NumberedSchema> schema_in(std::string_view content);
 [[nodiscard]] std::optional<NumberedChannel> channel_in(std::string_view content);
 [[nodiscard]] std::optional<Message> message_in(std::string_view content);
+/// The records of a chunk; nothing also if they are compressed.
+[[nodiscard]] std::optional<std::string_view> records_in_chunk(std::string_view content);
 
 }  // namespace hlc::mcap
