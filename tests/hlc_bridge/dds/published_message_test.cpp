@@ -1,12 +1,15 @@
 // ParticipantOptions::on_published.
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/dds/serialized.hpp"
 #include "hlc_bridge/dds/wire.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/hlc_bridge/dds/sample_messages.hpp"
 #include "tests/support/domain_reservation.hpp"
 
 namespace hlc::dds::published_message_test {
@@ -77,6 +80,30 @@ TEST_F(PublishedMessages, ATriggerBeginsItsTimeAndTheStopSymbolIsNoTime) {
   ASSERT_EQ(published_.size(), 2U);
   EXPECT_EQ(published_[0].time, 20U);
   EXPECT_FALSE(published_[1].time);
+}
+
+template <class Message>
+void expect_read_back(const Topic<Message>& topic, Participant& sender,
+                      const std::vector<Published>& published) {
+  std::mt19937_64 random(11);
+  Writer<Message> writer(sender, topic);
+  const auto message = sample<Message>(random);
+  ASSERT_TRUE(writer.write(message));
+  const std::string& cdr = published.back().cdr;
+  const std::optional<Message> back = message_from<Message>(cdr);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(text(*back), text(message));
+  EXPECT_FALSE(message_from<Message>(std::string_view(cdr).substr(0, cdr.size() / 2)));
+  EXPECT_FALSE(message_from<Message>(""));
+}
+
+TEST_F(PublishedMessages, OfAStepAreReadBackFromTheirBytes) {
+  Participant sender = participant(DomainRole::kController);
+  expect_read_back(topics::traffic(), sender, published_);
+  expect_read_back(topics::prediction(), sender, published_);
+  expect_read_back(topics::outcome(), sender, published_);
+  Participant middleware = participant(DomainRole::kLocal);
+  expect_read_back(topics::vehicle_state_list(), middleware, published_);
 }
 
 TEST_F(PublishedMessages, AMessageThatIsNotAcceptedIsNotObserved) {
