@@ -9,8 +9,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "hlc_bridge/record/configuration.hpp"
+#include "planner/common/text_file.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/mcap/mcap_reader.hpp"
 #include "tests/integration/lab_processes.hpp"
+#include "tests/support/folders.hpp"
+#include "tests/support/program.hpp"
 
 namespace hlc::test {
 namespace {
@@ -71,6 +76,41 @@ TEST(Messages, OfEveryProcessAreRecordedAndTheRunIsTheSame) {
     EXPECT_GE(times.back(), 25 * 200'000'000U) << topic;  // the last step's begin
   }
   EXPECT_FALSE(std::filesystem::exists(recorded.folder() / "messages"));
+}
+
+/// Whether every phase of every step ended because all had answered, long before its deadline: then
+/// nothing that was published arrived too late.
+bool is_undisturbed(const std::vector<ReportRecord>& reports) {
+  return std::ranges::all_of(reports, [](const ReportRecord& record) {
+    return record.report.reason == coordination::FallbackReason::kNone &&
+           record.report.missing.empty() && record.response_ns < 30'000'000;
+  });
+}
+
+/// As run_lab.sh keeps it.
+void keep_configuration(const std::filesystem::path& run_folder) {
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
+  record::keep_configuration(run_folder, scenario::files_of(scenario));
+  write_file(run_folder / "configuration" / "flags.yaml",
+             record::flags_yaml({.file = scenario.file}) + "noise_seed: null\n");
+}
+
+TEST(Messages, OfARunInRealTimeLetItBeDrivenAgain) {
+  LabProcesses lab({.simulated_time = false, .records_messages = true});
+  keep_configuration(lab.folder());
+  lab.start_all();
+  EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
+  static_cast<void>(lab.summarize());  // it may have a late step, on a busy machine
+  const Outcome again = run_program("replay " + lab.folder().string());
+  for (const char* vehicle : {"vehicle 1", "vehicle 2", "vehicle 3"}) {
+    EXPECT_THAT(again.output, testing::HasSubstr(vehicle));
+  }
+  if (is_undisturbed(reports_so_far(lab.folder()))) {
+    EXPECT_EQ(again.exit_code, 0) << again.output;
+  } else {
+    EXPECT_LE(again.exit_code, 1) << again.output;
+  }
 }
 
 TEST(Messages, OfProcessesThatAreKilledAreReadableUpToTheLastSecond) {

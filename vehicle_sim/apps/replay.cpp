@@ -1,4 +1,4 @@
-// Drives a run of logical time again, in one process: the same, or with something changed from a
+// Drives a run again, in one process: the same, or, in logical time, with something changed from a
 // step on.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,6 +18,7 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/record/configuration.hpp"
 #include "hlc_bridge/record/program.hpp"
+#include "hlc_bridge/record/report_file.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
 #include "hlc_bridge/result/first_difference.hpp"
 #include "hlc_bridge/result/run_summary.hpp"
@@ -23,6 +27,7 @@
 #include "planner/apps/flags.hpp"
 #include "vehicle_sim/apps/clocks.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
+#include "vehicle_sim/apps/recorded_messages.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace {
@@ -95,8 +100,67 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
   std::cout << hlc::result::summary_table(summary);
 }
 
+/// Of one vehicle, also those before the start.
+std::vector<hlc::ReportRecord> reports_of(hlc::VehicleId vehicle,
+                                          const std::vector<hlc::ReportRecord>& reports) {
+  std::vector<hlc::ReportRecord> found;
+  std::ranges::copy_if(reports, std::back_inserter(found),
+                       [&](const hlc::ReportRecord& one) { return one.report.vehicle == vehicle; });
+  return found;
+}
+
+/// @return whether the controller's steps are the same again
+bool is_same_again(const hlc::record::RunFolder& recorded, std::uint64_t until,
+                   const std::vector<hlc::ReportRecord>& before,
+                   const std::vector<hlc::ReportRecord>& again) {
+  const auto rows_of = [&](const std::vector<hlc::ReportRecord>& reports) {
+    const Rows all = hlc::result::step_records(reports, recorded.drives, recorded.facts);
+    const auto some = hlc::result::rows_before(all, until);
+    return Rows(some.begin(), some.end());
+  };
+  const int vehicle = before.front().report.vehicle.value;
+  const Rows expected = rows_of(before);
+  const Rows driven = rows_of(again);
+  const auto difference =
+      hlc::result::first_difference(std::span(expected).first(driven.size()), driven);
+  if (difference) {
+    std::cout << "differs (record and replay) first at "
+              << hlc::result::text_of(*difference, recorded.description.step_s) << '\n';
+  } else if (driven.size() < expected.size()) {
+    std::cout << fmt::format("vehicle {}: the same up to step {}, whose list is not recorded\n",
+                             vehicle, expected[driven.size()].step);
+  } else {
+    std::cout << fmt::format("vehicle {}: all {} steps are the same\n", vehicle, driven.size());
+  }
+  return !difference && driven.size() == expected.size();
+}
+
+/// Of a run in real time: each controller by itself, on what was recorded.
+int replay_messages(const hlc::record::RunFolder& recorded, const Choices& choices) {
+  if (choices.from) {
+    throw std::invalid_argument("--from: " + choices.run.string() +
+                                " was driven in real time, must be a run in logical time");
+  }
+  const hlc::closed_loop::RecordedMessages messages = hlc::apps::read_recorded_messages(recorded);
+  const std::vector<hlc::ReportRecord> reports =
+      hlc::record::read_reports(recorded.folder / "reports.csv");
+  const hlc::controller::PreparedSubgraph prepared =
+      hlc::scenario::prepare_subgraph_of(recorded.scenario);
+  const std::uint64_t until = choices.until.value_or(std::numeric_limits<std::uint64_t>::max());
+  bool is_same = true;
+  for (const std::uint8_t id : recorded.facts.vehicle_ids) {
+    const std::vector<hlc::ReportRecord> before = reports_of(hlc::VehicleId{id}, reports);
+    if (before.empty()) continue;
+    const std::vector<hlc::ReportRecord> again = hlc::closed_loop::drive_recorded(
+        recorded.scenario, prepared, hlc::VehicleId{id}, messages, before);
+    is_same = is_same_again(recorded, until, before, again) && is_same;
+  }
+  return is_same ? hlc::kExitGood : kExitDiffers;
+}
+
 int replay(const Choices& choices) {
   const hlc::record::RunFolder recorded = hlc::record::read_run_folder(choices.run);
+  if (!recorded.facts.simulated_time) return replay_messages(recorded, choices);
   hlc::closed_loop::ExperimentOptions options = hlc::apps::options_of_run(recorded);
   if (recorded.rows.empty()) {
     throw std::invalid_argument(choices.run.string() + ": no step is recorded");
@@ -136,8 +200,9 @@ int replay(const Choices& choices) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Drives a run of logical time again in one process. The same run must give the same "
-      "trace_sha256; with --from and --set it is a \"what if\" with a run folder of its own.",
+      "Drives a run again in one process. In logical time the same run must give the same "
+      "trace_sha256; with --from and --set it is a \"what if\" with a run folder of its own. In "
+      "real time every controller plans again on the messages in run.mcap.",
       "replay"};
   Choices choices;
   app.add_option("RUN,--run", choices.run, "run folder")->required();

@@ -157,18 +157,25 @@ TEST_F(Replay, RefusesWhatItCannotDriveInOneLineAndLeavesNoFolder) {
   }
 }
 
-TEST_F(Replay, OfARunInRealTimeIsRefused) {
-  change("run.json", "\"simulated_time\": true", "\"simulated_time\": false");
-  const auto [exit_code, output] = replay("");
-  EXPECT_EQ(exit_code, 2);
-  EXPECT_THAT(output, HasSubstr("logical time"));
-}
-
 TEST(ReplayProgram, OfAFolderThatIsNoRunIsRefusedAndHelpNamesTheExitCodes) {
   const auto [exit_code, output] = test::run_program("replay --run /tmp");
   EXPECT_EQ(exit_code, 2);
   EXPECT_THAT(output, HasSubstr("no run folder"));
   EXPECT_THAT(test::run_program("replay --help").output, HasSubstr("Exit codes"));
+}
+
+TEST_F(Replay, OfARunInRealTimeNeedsItsMessagesAndForksNone) {
+  change("run.json", "\"simulated_time\": true", "\"simulated_time\": false");
+  const auto refusal = [this](const std::string& flags) {
+    const auto [exit_code, output] = replay(flags);
+    EXPECT_EQ(exit_code, 2) << output;
+    EXPECT_EQ(std::ranges::count(output, '\n'), 1) << output;
+    return output;
+  };
+  EXPECT_THAT(refusal(""), HasSubstr("run.mcap: is missing, must be there"));
+  write_file(run() / "run.mcap", "no recording");
+  EXPECT_THAT(refusal(""), HasSubstr("run.mcap: no MCAP file"));
+  EXPECT_THAT(refusal("--from 3"), HasSubstr("must be a run in logical time"));
 }
 
 }  // namespace
