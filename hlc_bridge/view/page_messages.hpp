@@ -18,10 +18,10 @@
 /// * `maneuvers`: label, poses at equal times and swept area of each, in its own frame; the page
 ///   numbers them from 0 in the order in which they arrive;
 /// * `steps`: reports of one vehicle: steps, poses, and in `columns` a column per further field, in
-///   the unit that `units` has for it or as places in the table that `tables` has: of this message
-///   or of `run`. `names` and `sets` are tables of texts and of lists of numbers: of vehicles; in
-///   `plan` of its maneuvers, from the one under way on, as far as they are known; in `held` road,
-///   first cell and number of cells, or nothing;
+///   the unit that `units` of `run` has for it, or as places in the table that `tables` of `run`
+///   has for it: a table of this message or of `run`. `names` and `sets` are tables of texts and of
+///   lists of numbers: of vehicles; in `plan` of its maneuvers, from the one under way on, as far
+///   as they are known; in `held` road, first cell and number of cells, or nothing;
 /// * `drive`: states of one vehicle at equal times, without a gap;
 /// * `why`: explanations of one vehicle: `steps` is a list of [step, text], a text with line feeds;
 /// * `log`: lines;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hlc_bridge/view/step_messages.hpp"
 #include "planner/right_of_way/conflict_zones.hpp"
 
 namespace hlc::view {
@@ -116,6 +117,8 @@ Json run_message(const FinishedRun& run) {
             {"why", run.can_be_explained ? kHowToExplain : ""},
             {"step_s", description.step_s},
             {"stuck_after_s", coordination::kStuckAfter_s},
+            {"tables", column_tables()},
+            {"units", column_units()},
             {"statuses", names_up_to(coordination::StepStatus::kMinimalRiskStop)},
             {"reasons", names_up_to(coordination::FallbackReason::kOffRoute)},
             {"qualities", names_up_to(coordination::PlanQuality::kUnproven)}};

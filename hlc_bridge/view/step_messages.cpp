@@ -86,15 +86,6 @@ class StepColumns {
     json["k"] = k_.json();
     json["sets"] = sets_.values();
     json["names"] = names_.values();
-    json["tables"] = {{"status", "statuses"}, {"reason", "reasons"}, {"quality", "qualities"},
-                      {"label", "names"},     {"subgraph", "names"}, {"coupled", "sets"},
-                      {"missing", "sets"},    {"waits_for", "sets"}, {"blocked_by", "sets"},
-                      {"plan", "sets"},       {"held", "sets"},      {"plan_labels", "names"}};
-    json["units"] = {{"cost_m2", kUnit_m2},
-                     {"gap_m2", kUnit_m2},
-                     {"deviation_m", kUnit_m},
-                     {"planning_s", kUnit_s},
-                     {"late_s", kUnit_s}};
     for (const auto& [name, column] : columns_) json["columns"][name] = column;
     return json;
   }
@@ -123,6 +114,21 @@ class StepColumns {
 };
 
 }  // namespace
+
+Json column_tables() {
+  return {{"status", "statuses"}, {"reason", "reasons"}, {"quality", "qualities"},
+          {"label", "names"},     {"subgraph", "names"}, {"coupled", "sets"},
+          {"missing", "sets"},    {"waits_for", "sets"}, {"blocked_by", "sets"},
+          {"plan", "sets"},       {"held", "sets"},      {"plan_labels", "names"}};
+}
+
+Json column_units() {
+  return {{"cost_m2", kUnit_m2},
+          {"gap_m2", kUnit_m2},
+          {"deviation_m", kUnit_m},
+          {"planning_s", kUnit_s},
+          {"late_s", kUnit_s}};
+}
 
 Json StepMessages::of(VehicleId vehicle, std::span<const result::StepRecord* const> rows) {
   StepColumns columns(conflicts_.get());

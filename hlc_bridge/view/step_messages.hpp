@@ -27,6 +27,11 @@ class Table {
   std::vector<Value> values_;
 };
 
+/// Of the columns of messages `steps`, by name: the table of texts or lists into which they point,
+/// and the unit in which they count. Both are a part of the message `run`.
+[[nodiscard]] Json column_tables();
+[[nodiscard]] Json column_units();
+
 /// The messages `steps` of all vehicles of a run, and `maneuvers` with those that they point to.
 class StepMessages {
  public:

@@ -91,14 +91,15 @@ export class Run {
   }
 
   take_steps(message) {
-    const { units, columns, tables } = message;
+    const { about } = this;
     const poses = this.poses_of(message);
     const vehicle = this.vehicle(message.vehicle);
     sums(message.k, 1).forEach((k, i) => {
       const report = { k, pose: poses[i] };
-      for (const [name, column] of Object.entries(columns)) {
-        const table = this.about[tables[name]] || message[tables[name]];
-        report[name] = table ? table[column[i]] : column[i] * (units[name] || 1);
+      for (const [name, column] of Object.entries(message.columns)) {
+        const named = about.tables[name];
+        const table = about[named] || message[named];
+        report[name] = table ? table[column[i]] : column[i] * (about.units[name] || 1);
       }
       vehicle.steps[k] = report;
       this.num_steps = Math.max(this.num_steps, k + 1);
