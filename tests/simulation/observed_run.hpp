@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/integration/recorded_commands.hpp"
@@ -81,9 +82,13 @@ class ObservedRun final : private RunObserver {
 
   /// Called with every sample that is driven.
   std::function<void(std::uint8_t vehicle, Nanoseconds tick)> on_tick{[](auto...) {}};
-  /// Called with every message that a process publishes.
-  std::function<void(const std::string& process, const Message& message)> on_message{
-      [](auto&&...) {}};
+  /// @param receiver  of every message that a process publishes, with the process's name
+  void record(std::function<void(const std::string& process, const Message& message)> receiver) {
+    lab_.network().on_published = [this, receiver = std::move(receiver)](
+                                      NodeId node, const SharedMessage& message) {
+      receiver(lab_.name(node), *message);
+    };
+  }
 
  private:
   void on_log(NodeId node, const machine::LogLine& line) override;
@@ -99,9 +104,6 @@ class ObservedRun final : private RunObserver {
   void on_command(const TrajectoryCommand& command) override { monitor_.on_command(command); }
   void on_received(const TrajectoryCommand& command) override;
   void on_stop_symbol(std::uint8_t vehicle) override;
-  void on_published(NodeId node, const Message& message) override {
-    on_message(lab_.name(node), message);
-  }
 
   const scenario::Scenario* scenario_;
   Trace no_trace_;

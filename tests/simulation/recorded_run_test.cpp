@@ -21,7 +21,7 @@ constexpr Nanoseconds kSecond = kNanosecondsPerSecond;
 class Recorder {
  public:
   explicit Recorder(ObservedRun& run) : run_(run) {
-    run.on_message = [this](const std::string& process, const Message& message) {
+    run.record([this](const std::string& process, const Message& message) {
       if (const auto* const list = std::get_if<VehicleStateList>(&message)) take(process, *list);
       if (const auto* const one = std::get_if<coordination::Traffic>(&message)) {
         take(*one, messages_.traffic);
@@ -32,7 +32,7 @@ class Recorder {
       if (const auto* const one = std::get_if<coordination::Outcome>(&message)) {
         take(*one, messages_.outcomes);
       }
-    };
+    });
   }
   [[nodiscard]] const RecordedMessages& messages() const { return messages_; }
 

@@ -7,12 +7,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
@@ -100,12 +101,15 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
   std::cout << hlc::result::summary_table(summary);
 }
 
-/// Of one vehicle, also those before the start.
+/// Of one vehicle, also those before the start; the last one of a step counts.
 std::vector<hlc::ReportRecord> reports_of(hlc::VehicleId vehicle,
                                           const std::vector<hlc::ReportRecord>& reports) {
+  std::map<hlc::StepIndex, hlc::ReportRecord> by_step;
+  for (const hlc::ReportRecord& one : reports) {
+    if (one.report.vehicle == vehicle) by_step.insert_or_assign(one.report.step, one);
+  }
   std::vector<hlc::ReportRecord> found;
-  std::ranges::copy_if(reports, std::back_inserter(found),
-                       [&](const hlc::ReportRecord& one) { return one.report.vehicle == vehicle; });
+  for (auto& [step, one] : by_step) found.push_back(std::move(one));
   return found;
 }
 

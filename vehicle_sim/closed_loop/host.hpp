@@ -22,7 +22,6 @@ class Host {
   /// @param topic  index among the description's `writes`
   template <class What>
   void publish(std::size_t topic, const What& what) const {
-    place_.observer->on_published(place_.node, what);
     place_.network->publish(place_.node, topic, what);
   }
   [[nodiscard]] machine::Participants participants(Domain domain) const {

@@ -1,8 +1,7 @@
 #include "vehicle_sim/closed_loop/recorded_run.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <iterator>
 #include <optional>
 
 #include "hlc_bridge/hlc/hlc_core.hpp"
@@ -28,24 +27,23 @@ class RecordedVehicle {
         messages_(messages) {}
 
   ReportRecord step(const VehicleStateList& list, const ReportRecord& recorded) {
-    std::optional<controller::Observation> observation = hlc_.observe(list);
-    if (!observation) return recorded;  // a list that was received twice
-    observation->present = observation->active;
+    controller::Observation observation = hlc_.observe(list).value();
+    observation.present = observation.active;
     const bool is_running = recorded.report.status != StepStatus::kStandby;
-    if (!hlc_.has_begun()) hlc_.note(list, *observation);
+    if (!hlc_.has_begun()) hlc_.note(list, observation);
     if (is_running) {
-      static_cast<void>(hlc_.begins(list, *observation,
-                                    high_level_controller::StartRule::kAtTrigger, list.t_now));
-      if (!first_step_) first_step_ = observation->step;
+      static_cast<void>(
+          hlc_.begins(list, observation, high_level_controller::StartRule::kAtTrigger, list.t_now));
+      if (!first_step_) first_step_ = observation.step;
     }
-    loop_.advance_to(observation->step);
+    loop_.advance_to(observation.step);
     controller::Controller& controller = hlc_.controller();
     static_cast<void>(choice_.begin_step(
-        controller, observation->step, first_step_,
+        controller, observation.step, first_step_,
         high_level_controller::battery_voltage_v(list, controller.options().vehicle)));
     controller.set_minimal_risk_stop(recorded.report.status == StepStatus::kMinimalRiskStop);
     ReportRecord record = recorded;
-    record.report = is_running ? plan(list, *observation, recorded) : loop_.stand_by(*observation);
+    record.report = is_running ? plan(list, observation, recorded) : loop_.stand_by(observation);
     record.report = high_level_controller::with_answer(std::move(record.report), hlc_.answer(list));
     controller.note_causes(record.report);
     if (is_running) choice_.end_step(controller, record.report);
@@ -75,12 +73,13 @@ class RecordedVehicle {
 
   /// Messages that come twice are kept once by the loop.
   void deliver_until(Nanoseconds deadline, StepIndex step) {
-    for (const auto& one : of_step(messages_.predictions, step)) {
-      if (one.time < deadline) loop_.receive(one.message);
-    }
-    for (const auto& one : of_step(messages_.outcomes, step)) {
-      if (one.time < deadline) loop_.receive(one.message);
-    }
+    const auto deliver = [&](const auto& messages) {
+      for (const auto& one : of_step(messages, step)) {
+        if (one.time < deadline) loop_.receive(one.message);
+      }
+    };
+    deliver(messages_.predictions);
+    deliver(messages_.outcomes);
   }
 
   template <class Message>

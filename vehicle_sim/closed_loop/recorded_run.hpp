@@ -37,7 +37,7 @@ struct RecordedMessages {
 /// sender as missing; a prediction or an outcome arrived if it was published before the deadline of
 /// the phase that needs it (StepDeadlines).
 ///
-/// @param recorded  reports of the vehicle, by step
+/// @param recorded  reports of the vehicle, by step, one for each
 /// @return the reports of the same steps, up to the first one whose list is not recorded; their
 /// measured times are those recorded
 [[nodiscard]] std::vector<ReportRecord> drive_recorded(const scenario::Scenario& scenario,

@@ -282,6 +282,7 @@ std::set<std::string> SimulatedNetwork::writers(NodeId node, std::size_t topic) 
 
 void SimulatedNetwork::publish(NodeId node, std::size_t topic, Message message) {
   const auto shared = std::make_shared<const Message>(std::move(message));
+  if (on_published) on_published(node, shared);
   const TopicRules rules = rules_of(nodes_[node].writes[topic].id, options_.transport);
   if (rules.is_kept_late) {
     auto& kept = nodes_[node].kept[topic];

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -90,6 +91,8 @@ class SimulatedNetwork {
 
   /// @param topic  index among the description's `writes`
   void publish(NodeId node, std::size_t topic, Message message);
+  /// Called with every message that a process publishes. May be absent.
+  std::function<void(NodeId node, const SharedMessage& message)> on_published{};
 
   /// An event that is due: an arrival or a discovery.
   struct Arrival {

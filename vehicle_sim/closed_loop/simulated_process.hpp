@@ -33,8 +33,6 @@ class RunObserver {
   /// By a vehicle.
   virtual void on_received(const TrajectoryCommand& command) = 0;
   virtual void on_stop_symbol(std::uint8_t vehicle) = 0;
-  /// Every message, also those above.
-  virtual void on_published(NodeId /*node*/, const Message& /*message*/) {}
 };
 
 /// The environment of a process.
