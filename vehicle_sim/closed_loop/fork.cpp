@@ -63,8 +63,8 @@ class ChangeText {
   [[nodiscard]] VehicleId vehicle(const std::string& text) const {
     const auto id = number_in<std::uint8_t>(text);
     const auto has_id = [&](const scenario::ScenarioVehicle& one) { return one.id.value == *id; };
-    const bool is_one_way_to_write_it = id && std::to_string(*id) == text;
-    if (is_one_way_to_write_it && std::ranges::any_of(scenario_.vehicles, has_id)) return {*id};
+    const bool is_canonical = id && std::to_string(*id) == text;  // not "03"
+    if (is_canonical && std::ranges::any_of(scenario_.vehicles, has_id)) return {*id};
     std::vector<int> ids;
     for (const scenario::ScenarioVehicle& one : scenario_.vehicles) ids.push_back(one.id.value);
     refuse(fmt::format("of vehicles of the run: {}", fmt::join(ids, ", ")));

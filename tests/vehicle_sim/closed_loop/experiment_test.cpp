@@ -56,6 +56,18 @@ TEST(Experiment, DrivesMoreCarsThanTheLabHas) {
   }
 }
 
+/// Ten cars on the lab's road, 12 s.
+struct TenCars {
+  scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 10});
+  Experiment experiment = drive_experiment(scenario, {.steps = 60});
+};
+
+const TenCars& ten_cars() {
+  static const TenCars kTenCars;
+  return kTenCars;
+}
+
 /// Reports of a vehicle, by step.
 std::vector<coordination::Report> reports_of(VehicleId vehicle, const Experiment& experiment) {
   std::vector<coordination::Report> reports;
@@ -67,9 +79,7 @@ std::vector<coordination::Report> reports_of(VehicleId vehicle, const Experiment
 
 // Without noise every plan stays where it is.
 TEST(Experiment, ThePlanOfAReportIsWhatIsDrivenUntilAnotherOneComesIntoForce) {
-  const scenario::Scenario scenario = scenario::read_scenario(
-      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 10});
-  const Experiment experiment = drive_experiment(scenario, {.steps = 60});
+  const auto& [scenario, experiment] = ten_cars();
   const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
   std::size_t num_moving = 0;
   for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
@@ -92,9 +102,7 @@ TEST(Experiment, ThePlanOfAReportIsWhatIsDrivenUntilAnotherOneComesIntoForce) {
 }
 
 TEST(Experiment, NoPlanLeadsBeyondTheRoadThatItsReportHolds) {
-  const scenario::Scenario scenario = scenario::read_scenario(
-      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 10});
-  const Experiment experiment = drive_experiment(scenario, {.steps = 60});
+  const auto& [scenario, experiment] = ten_cars();
   const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
   std::size_t num_checked = 0;
   for (const ReportRecord& record : experiment.reports) {

@@ -11,8 +11,8 @@
 
 #include "hlc_bridge/result/trace_hash.hpp"
 #include "planner/geometry/footprint.hpp"
-#include "tests/support/folders.hpp"
 #include "tests/support/num_seeds.hpp"
+#include "tests/vehicle_sim/closed_loop/forked_scenarios.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 #include "vehicle_sim/closed_loop/fork.hpp"
 
@@ -21,25 +21,6 @@ namespace {
 
 constexpr std::uint64_t kSteps = 60;
 constexpr std::uint64_t kFrom = 10;
-
-scenario::ScenarioChoices scenario_file(const std::string& name) {
-  return {.file = test::source_folder() + "/launch_scripts/scenarios/" + name};
-}
-
-const scenario::Scenario& three_cars() {
-  static const scenario::Scenario kScenario =
-      scenario::read_scenario(scenario_file("paper_three_cars.yaml"));
-  return kScenario;
-}
-
-const scenario::Scenario& cars_with_right_of_way() {
-  static const scenario::Scenario kScenario = [] {
-    scenario::ScenarioChoices choices = scenario_file("lab_cars.yaml");
-    choices.cars = 5;
-    return scenario::read_scenario(choices);
-  }();
-  return kScenario;
-}
 
 Experiment drive(const scenario::Scenario& scenario, std::vector<Fork::Change> changes = {}) {
   Experiment experiment = drive_experiment(

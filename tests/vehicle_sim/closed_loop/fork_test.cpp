@@ -12,8 +12,8 @@
 #include "hlc_bridge/result/first_difference.hpp"
 #include "hlc_bridge/result/trace_hash.hpp"
 #include "planner/scenario/profile.hpp"
-#include "tests/support/folders.hpp"
 #include "tests/support/num_seeds.hpp"
+#include "tests/vehicle_sim/closed_loop/forked_scenarios.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
 namespace hlc::closed_loop::fork_test {
@@ -22,12 +22,6 @@ namespace {
 using Rows = std::vector<result::StepRecord>;
 
 constexpr std::uint64_t kSteps = 60;
-
-const scenario::Scenario& three_cars() {
-  static const scenario::Scenario kScenario = scenario::read_scenario(
-      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
-  return kScenario;
-}
 
 Rows rows_of(const ExperimentOptions& options, const scenario::Scenario& scenario = three_cars()) {
   const Experiment experiment = drive_experiment(scenario, options);
