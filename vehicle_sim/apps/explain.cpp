@@ -163,7 +163,9 @@ int explain(const Choices& choices) {
   hlc::record::RunFolder run = hlc::record::read_run_folder(choices.run);
   if (!choices.all) return explain_step(run, choices);
   const std::size_t count = hlc::apps::explain_all(std::move(run));
-  std::cout << fmt::format("{} steps explained: {}\nthe run as a page: {}\n", count,
+  const char* const why_none =
+      count > 0 ? "" : " (no vehicle began to wait, to keep its plan, to stop or to miss others)";
+  std::cout << fmt::format("{} steps explained{}: {}\nthe run as a page: {}\n", count, why_none,
                            hlc::record::explanations_file(choices.run).string(),
                            hlc::apps::page_file(choices.run).string());
   return hlc::kExitGood;

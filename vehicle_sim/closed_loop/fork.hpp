@@ -76,7 +76,7 @@ inline constexpr char kChangeForms[] =
     "speed=3:0.4: most that vehicle 3 may drive [m/s]\n"
     "without=3: vehicle 3 is gone\n"
     "lost=1>3:5: what vehicle 1 sends to 3 is lost for 5 steps (without a number: 1)\n"
-    "obstacle=2.0,1.5,0.3,0.1,0.8: a rectangle stands at x = 2.0 m, y = 1.5 m, 0.3 m long and "
+    "obstacle=2.4,1.8,0.3,0.1,0.8: a rectangle stands at x = 2.4 m, y = 1.8 m, 0.3 m long and "
     "0.1 m wide, turned by 0.8 rad (without: 0)\n"
     "route=3:blue: vehicle 3 drives on along the scenario's route blue";
 
