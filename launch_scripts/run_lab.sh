@@ -35,7 +35,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --dds_domain N          lab domain; the vehicles take the next ones (--share machine: one), the controllers N + 50
                           (default: a free block)
   --dump-problems DIR     write each planning problem to a JSON file in this new or empty folder, for plan_problem; in
-                          real time this may delay steps; requires --policy none if the scenario has a policy
+                          real time this may delay steps
   --page BOOL             true (default): the run folder gets run.html, the whole run to be watched in a browser
   --messages BOOL         true (default): the run folder gets run.mcap, every message between the processes, for Foxglove,
                           Lichtblick and the libraries of MCAP
@@ -110,7 +110,7 @@ case "$preset" in
   release | debug | asan | tsan) ;;
   *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
 esac
-[[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
+[[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/${scenario%.yaml}.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$root/launch_scripts/scenarios" && echo *.yaml)"
 
 if $build && [[ -z $bin ]]; then
@@ -130,13 +130,9 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $routes ]] || choices+=(--routes "$routes")
 check=("${choices[@]}")
 [[ -z $steps ]] || check+=(--steps "$steps")
-starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps --print_policy) || exit 2
-{ read -r steps && read -r driven_by; } < <(tail -n 2 <<<"$starts")
-starts=$(head -n -2 <<<"$starts")
-if [[ -n $dump_problems ]]; then
-  [[ $driven_by == none ]] ||
-    fail "--dump-problems with policy $driven_by requires --policy none: a problem names a subgraph of the automaton's file"
-fi
+starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps) || exit 2
+steps=$(tail -n 1 <<<"$starts")
+starts=$(head -n -1 <<<"$starts")
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
 ((ids[-1] <= 30)) || fail "scenario $scenario: vehicle ${ids[-1]}, must be in 1 ... 30 in the lab; rollout and evaluate take more"
 [[ -n $stamps ]] || stamps=$(awk 'NR == 1 {print $3}' <<<"$starts")

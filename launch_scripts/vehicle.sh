@@ -29,8 +29,7 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --discovery_mode MODE   simple (default: multicast) or client, with the address of the lab domain's discovery server:
                           --discovery_server_id ID, --discovery_server_ip ADDRESS, --discovery_server_port PORT
   --controller_peers A,B  addresses of the other machines, asked on the controllers' domain besides multicast
-  --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written);
-                          requires --policy none if the scenario has a policy
+  --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written)
   --pose X,Y,YAW          initial pose of the simulated car, of each of several (default: the scenario's start)
   --noise_seed N          measurement noise from this seed, one for each of several (default: none)
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
@@ -116,7 +115,7 @@ for one in ${noise_seed//,/ }; do whole_number noise_seed "$one"; done
 [[ -z $gains_scale || $stamps != lab ]] || fail "--stamps = lab with --gains_scale, must be exact: the lab's follower has no gains"
 [[ -z $gains_scale ]] || stamps=exact
 [[ -n $scenario ]] || fail "--scenario is missing"
-[[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/$scenario.yaml
+[[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/${scenario%.yaml}.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
 [[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + ids[0]))
 [[ -n $out ]] || out=$root/runs/vehicle_$(name_of "$id")

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/record/configuration.hpp"
 #include "hlc_bridge/record/explanation_file.hpp"
 #include "hlc_bridge/record/log_files.hpp"
 #include "hlc_bridge/record/program.hpp"
@@ -14,6 +15,15 @@
 #include "planner/road/lanelet_map.hpp"
 
 namespace hlc::apps {
+namespace {
+
+constexpr const char* kHowExplained =
+    "explain RUN --vehicle N --step K answers it (with --tree also what was searched); explain RUN "
+    "--all fills this row where a car begins to stand, to wait or to keep its plan";
+constexpr const char* kNotExplained =
+    "only a run in logical time can be explained (run_lab.sh --simulated_time=true)";
+
+}  // namespace
 
 Verdict verdict_on(const result::RunSummary& summary) {
   if (std::string fault = result::driving_fault(summary); !fault.empty()) {
@@ -31,7 +41,11 @@ view::FinishedRun finished_run(record::RunFolder read, std::string fault) {
   if (read.scenario.map_file) run.map = road::read_lanelet_map(*read.scenario.map_file);
   run.log = record::read_logs(read.folder / "logs", read.facts);
   run.explanations = record::read_explanations(read.folder, read.rows);
-  run.can_be_explained = read.facts.simulated_time && !read.rows.empty();
+  const std::vector<record::KeptFork> forks = record::kept_forks(read.folder);
+  run.fork = record::forks_text(forks);
+  run.obstacles = record::added_obstacles(forks);
+  run.searches = record::read_search_pages(read.folder, read.rows);
+  run.how_explained = read.facts.simulated_time ? kHowExplained : kNotExplained;
   run.time = read.facts.simulated_time ? "logical time" : "real time";
   run.description = std::move(read.description);
   run.facts = std::move(read.facts);

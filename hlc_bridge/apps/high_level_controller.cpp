@@ -78,7 +78,7 @@ void declare(CLI::App& app, Flags& flags) {
       "--dump-problems,--dump_problems", flags.problem_folder,
       "folder for the planning problems, one JSON file each (see plan_problem). They are "
       "written after a step's command; plans stay the same, but in real time "
-      "a slow disk may delay the next step. Refused if a policy drives (give --policy none)");
+      "a slow disk may delay the next step");
   app.add_option("--thread_priority", flags.thread_priority,
                  "real-time priority of the planning thread, where the system allows it; 0: none")
       ->capture_default_str()
@@ -148,7 +148,7 @@ std::shared_ptr<hlc::process::HlcProcess> make_process(const Flags& flags,
     options.after_step =
         [dump = hlc::scenario::ProblemDump(*flags.problem_folder, scenario.automaton_file,
                                            scenario.subgraph->spec())](
-            const hlc::controller::Controller& controller) { dump.write(controller); };
+            const hlc::controller::Controller& controller) mutable { dump.write(controller); };
   }
   return std::make_shared<hlc::process::HlcProcess>(options,
                                                     hlc::scenario::make_controller(scenario, id));
@@ -174,11 +174,6 @@ int main(int argc, char** argv) {
       throw std::invalid_argument(fmt::format(
           "{}: vehicle {}, must be in 1 ... {} in the lab", flags.scenario.file.string(),
           scenario->vehicles.back().id.value, hlc::kMaxLabVehicleId));
-    }
-    if (flags.problem_folder && scenario->policy != hlc::policy::kNoPolicy) {
-      throw std::invalid_argument("--dump-problems with policy " + scenario->policy +
-                                  " requires --policy none: a problem names a subgraph that "
-                                  "the automaton's file declares");
     }
   });
   if (code != hlc::kExitGood) return hlc::kExitBadInput;

@@ -32,8 +32,10 @@ namespace {
 /// The page of an earlier summary may show another result. @throws
 /// std::filesystem::filesystem_error
 void remove_old_page(const std::filesystem::path& run) {
-  if (std::filesystem::is_regular_file(hlc::apps::page_file(run)))
-    std::filesystem::remove(hlc::apps::page_file(run));
+  const std::filesystem::path page = hlc::apps::page_file(run);
+  std::error_code error;
+  if (std::filesystem::is_regular_file(page)) std::filesystem::remove(page, error);
+  if (error) throw std::runtime_error(page.string() + ": cannot be replaced: " + error.message());
 }
 
 /// The parts of run.mcap that the processes recorded; none: they did not.

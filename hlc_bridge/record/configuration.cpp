@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "planner/common/node.hpp"
@@ -151,6 +153,39 @@ std::vector<KeptFork> kept_forks(const fs::path& run_folder) {
   }
   file.check_no_unknown_keys();
   return forks;
+}
+
+std::string forks_text(std::span<const KeptFork> forks) {
+  std::vector<std::string> texts;
+  for (const KeptFork& fork : forks) {
+    texts.push_back(fmt::format("from step {} on {}", fork.from, fmt::join(fork.set, ", ")));
+  }
+  return texts.empty() ? "" : fmt::format("a fork: {}", fmt::join(texts, "; "));
+}
+
+std::vector<result::AddedObstacle> added_obstacles(std::span<const KeptFork> forks) {
+  constexpr std::string_view kKey = "obstacle=";
+  std::vector<result::AddedObstacle> obstacles;
+  for (const KeptFork& fork : forks) {
+    for (const std::string& text : fork.set) {
+      if (!text.starts_with(kKey)) continue;
+      std::istringstream numbers(text.substr(kKey.size()));
+      result::AddedObstacle one{.from = fork.from, .pose = {}};
+      char comma{};
+      numbers >> one.pose.x_m >> comma >> one.pose.y_m >> comma >> one.length_m >> comma >>
+          one.width_m;
+      if (!numbers) continue;  // not written by a fork
+      if (!(numbers >> comma >> one.pose.heading_rad)) one.pose.heading_rad = 0.0;
+      obstacles.push_back(one);
+    }
+  }
+  return obstacles;
+}
+
+bool takes_out(std::span<const KeptFork> forks, std::uint8_t vehicle) {
+  const std::string change = fmt::format("without={}", vehicle);
+  return std::ranges::any_of(
+      forks, [&](const KeptFork& fork) { return std::ranges::count(fork.set, change) > 0; });
 }
 
 void omit_changed_routes(std::span<const KeptFork> forks, result::RunDescription& description) {

@@ -55,6 +55,15 @@ struct KeptFork {
 /// bound
 [[nodiscard]] std::vector<KeptFork> kept_forks(const std::filesystem::path& run_folder);
 
+/// "a fork: from step 40 on priorities=2; from step 60 on speed=3:0.4"; empty without forks.
+[[nodiscard]] std::string forks_text(std::span<const KeptFork> forks);
+
+/// Those of the changes `obstacle=X,Y,LENGTH,WIDTH[,HEADING]`.
+[[nodiscard]] std::vector<result::AddedObstacle> added_obstacles(std::span<const KeptFork> forks);
+
+/// Whether one of them takes the vehicle out of the run (`without=VEHICLE`).
+[[nodiscard]] bool takes_out(std::span<const KeptFork> forks, std::uint8_t vehicle);
+
 /// Of vehicles that follow another route from a fork on, the description has no route then: no
 /// numbers along the one of the scenario would mean anything.
 void omit_changed_routes(std::span<const KeptFork> forks, result::RunDescription& description);

@@ -1,9 +1,12 @@
 #include "hlc_bridge/record/explanation_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
 
 #include "planner/common/csv.hpp"
+#include "planner/common/text_file.hpp"
 
 namespace hlc::record {
 namespace {
@@ -47,10 +50,29 @@ std::vector<result::Explanation> read_explanations(const std::filesystem::path& 
           "one in which the vehicle begins to keep its plan, to wait or to miss others: the "
           "file of another run?");
     }
-    explanations.push_back(
-        {.step = step, .vehicle = found->vehicle, .text = table.text(row, kText)});
+    explanations.push_back({.step = step,
+                            .last = found->last,
+                            .vehicle = found->vehicle,
+                            .text = table.text(row, kText)});
   }
   return explanations;
+}
+
+std::filesystem::path search_page_file(const std::filesystem::path& run, VehicleId vehicle,
+                                       std::uint64_t step) {
+  return run / "searches" / fmt::format("vehicle_{}_step_{}.html", vehicle.value, step);
+}
+
+std::vector<result::SearchPage> read_search_pages(const std::filesystem::path& run,
+                                                  std::span<const result::StepRecord> rows) {
+  std::vector<result::SearchPage> pages;
+  for (const result::StepRecord& row : rows) {
+    const VehicleId vehicle = row.record.report.vehicle;
+    const std::filesystem::path file = search_page_file(run, vehicle, row.step);
+    if (!std::filesystem::exists(file)) continue;
+    pages.push_back({.step = row.step, .vehicle = vehicle, .html = read_file(file)});
+  }
+  return pages;
 }
 
 }  // namespace hlc::record

@@ -22,4 +22,14 @@ namespace hlc::record {
 [[nodiscard]] std::vector<result::Explanation> read_explanations(
     const std::filesystem::path& run, std::span<const result::StepRecord> rows);
 
+/// searches/vehicle_<id>_step_<k>.html of a run folder, k from 0: what was searched.
+[[nodiscard]] std::filesystem::path search_page_file(const std::filesystem::path& run,
+                                                     VehicleId vehicle, std::uint64_t step);
+
+/// Those of the folder.
+/// @param rows  of its run
+/// @throws std::runtime_error naming a file that cannot be read
+[[nodiscard]] std::vector<result::SearchPage> read_search_pages(
+    const std::filesystem::path& run, std::span<const result::StepRecord> rows);
+
 }  // namespace hlc::record

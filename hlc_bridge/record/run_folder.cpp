@@ -34,7 +34,8 @@ RunFolder read_run_folder(const fs::path& folder, const RunChoices& given) {
   run.choices = choices_of_run(folder, given);
   run.scenario = scenario::read_scenario(run.choices.scenario);
   run.description = result::describe(run.scenario, run.choices.noise_seed);
-  omit_changed_routes(kept_forks(folder), run.description);
+  const std::vector<KeptFork> forks = kept_forks(folder);
+  omit_changed_routes(forks, run.description);
   try {
     result::check_run(run.facts, run.description);
   } catch (const std::runtime_error& error) {
@@ -42,7 +43,9 @@ RunFolder read_run_folder(const fs::path& folder, const RunChoices& given) {
   }
   run.drives = read_drives(folder, run.facts.vehicle_ids);
   run.rows = result::step_records(reports, run.drives, run.facts);
-  run.incomplete = incomplete_files(run.facts, run.rows, run.drives);
+  result::RunFacts of_the_rest = run.facts;
+  std::erase_if(of_the_rest.vehicle_ids, [&](std::uint8_t id) { return takes_out(forks, id); });
+  run.incomplete = incomplete_files(of_the_rest, run.rows, run.drives);
   return run;
 }
 

@@ -1,35 +1,115 @@
 #include "hlc_bridge/result/explanation.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
+#include <utility>
 
 namespace hlc::result {
 namespace {
 
-using Hindrances = std::array<bool, 4>;
+using VehicleRows = std::vector<const StepRecord*>;
 
-Hindrances hindrances_in(const coordination::Report& report) {
-  return {report.status == coordination::StepStatus::kFallback,
-          report.status == coordination::StepStatus::kMinimalRiskStop,
-          !report.waiting.vehicles.empty(), !report.missing.empty()};
+constexpr double kStanding_mps = 0.025;
+/// One that has been slower since its last stand was not under way again.
+constexpr double kMoving_mps = 0.1;
+/// Of measured speeds.
+constexpr double kNoise_mps = 0.01;
+
+/// VehicleRows of one stretch.
+struct Stretch {
+  std::size_t first{};
+  std::size_t last{};
+};
+
+std::vector<Stretch> stretches(const VehicleRows& rows,
+                               const std::function<bool(const StepRecord&)>& is_in) {
+  std::vector<Stretch> found;
+  bool was_in = false;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool is_in_now = is_in(*rows[i]);
+    if (is_in_now && !was_in) found.push_back({i, i});
+    if (is_in_now) found.back().last = i;
+    was_in = is_in_now;
+  }
+  return found;
+}
+
+constexpr std::array<bool (*)(const coordination::Report&), 4> kHindrances{
+    [](const coordination::Report& report) {
+      return report.status == coordination::StepStatus::kFallback;
+    },
+    [](const coordination::Report& report) {
+      return report.status == coordination::StepStatus::kMinimalRiskStop;
+    },
+    [](const coordination::Report& report) { return !report.waiting.vehicles.empty(); },
+    [](const coordination::Report& report) { return !report.missing.empty(); }};
+
+double speed_mps(const StepRecord& row) { return std::abs(row.driven_speed_mps.value_or(0.0)); }
+
+/// Of a vehicle that stands from row `stand` on: the first row whose plan brakes. The plan of a step
+/// is driven from the next one on.
+std::optional<std::size_t> first_braking_row(const VehicleRows& rows, std::size_t stand) {
+  std::size_t fastest = stand;
+  while (fastest > 0 && speed_mps(*rows[fastest - 1]) > speed_mps(*rows[fastest]) + kNoise_mps) {
+    --fastest;
+  }
+  if (speed_mps(*rows[fastest]) < kMoving_mps) return std::nullopt;
+  return fastest > 0 ? fastest - 1 : 0;
+}
+
+/// The first row of every hindrance, and every row whose plan brakes to a stand, each with the last
+/// row that it explains: the last one to brake explains the stand.
+std::map<std::size_t, std::size_t> begins(const VehicleRows& rows) {
+  std::map<std::size_t, std::size_t> last_by_first;
+  const auto add = [&](std::size_t first, std::size_t last) {
+    std::size_t& known = last_by_first[first];
+    known = std::max(known, last);
+  };
+  for (const auto& is_hindered : kHindrances) {
+    for (const Stretch& one :
+         stretches(rows, [&](const StepRecord& row) { return is_hindered(row.record.report); })) {
+      add(one.first, one.last);
+    }
+  }
+  const auto hindered = [&](std::size_t row) {
+    return std::ranges::any_of(kHindrances, [&](const auto& is_hindered) {
+      return is_hindered(rows[row]->record.report);
+    });
+  };
+  for (const Stretch& one : stretches(rows, [](const StepRecord& row) {
+         return row.driven_speed_mps && speed_mps(row) < kStanding_mps;
+       })) {
+    const auto first = first_braking_row(rows, one.first);
+    if (!first || hindered(one.first)) continue;
+    const std::size_t last = std::max(*first + 2, one.first) - 2;
+    for (std::size_t row = *first; row < last; ++row) add(row, row);
+    add(last, one.last);
+  }
+  return last_by_first;
 }
 
 }  // namespace
 
 std::vector<Explanation> steps_to_explain(std::span<const StepRecord> rows) {
-  std::vector<Explanation> steps;
-  std::map<VehicleId, Hindrances> before;
+  std::map<VehicleId, VehicleRows> rows_of;
   for (const StepRecord& row : rows) {
     const coordination::Report& report = row.record.report;
-    if (report.status == coordination::StepStatus::kStandby) continue;
-    const Hindrances now = hindrances_in(report);
-    Hindrances& last = before[report.vehicle];
-    bool begins = false;
-    for (std::size_t i = 0; i < now.size(); ++i) begins = begins || (now[i] && !last[i]);
-    if (begins) steps.push_back({.step = row.step, .vehicle = report.vehicle, .text = {}});
-    last = now;
+    if (report.status != coordination::StepStatus::kStandby) {
+      rows_of[report.vehicle].push_back(&row);
+    }
   }
+  std::vector<Explanation> steps;
+  for (const auto& [vehicle, own] : rows_of) {
+    for (const auto& [first, last] : begins(own)) {
+      steps.push_back(
+          {.step = own[first]->step, .last = own[last]->step, .vehicle = vehicle, .text = {}});
+    }
+  }
+  std::ranges::stable_sort(steps, {}, &Explanation::step);
   return steps;
 }
 

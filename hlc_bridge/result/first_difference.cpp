@@ -239,6 +239,20 @@ std::optional<Difference> first_difference(Rows a, Rows b) {
   return std::nullopt;
 }
 
+std::optional<Difference> first_apart(Rows a, Rows b) {
+  for (const auto& [step, vehicles] : steps_of(a, b)) {
+    for (const auto& [vehicle, rows] : vehicles) {
+      if (rows.a == nullptr || rows.b == nullptr || !rows.a->driven || !rows.b->driven) continue;
+      const Pose& in_a = *rows.a->driven;
+      const Pose& in_b = *rows.b->driven;
+      if (in_a == in_b) continue;
+      const double apart_m = (in_a.position_m() - in_b.position_m()).norm();
+      return Difference{step, vehicle, fmt::format("{:.2g} mm apart", 1e3 * apart_m)};
+    }
+  }
+  return std::nullopt;
+}
+
 std::string text_of(const Difference& difference, double step_s) {
   return fmt::format("step {} ({:.1f} s), vehicle {}: {}", difference.step,
                      static_cast<double>(difference.step) * step_s, difference.vehicle.value,

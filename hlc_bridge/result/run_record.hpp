@@ -85,6 +85,14 @@ struct StepRecord {
   double t_s{};                              ///< t(k) since t(k0)
 };
 
+/// A rectangle that stands in the run from a step on, as a fork added it.
+struct AddedObstacle {
+  std::uint64_t from{};  ///< step, from 0: k - k0
+  Pose pose;             ///< of its middle
+  double length_m{};     ///< along the heading
+  double width_m{};
+};
+
 /// A line that a process of the run logged.
 struct LoggedLine {
   std::string process;  ///< name of its log

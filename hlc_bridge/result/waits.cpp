@@ -14,13 +14,17 @@ std::optional<std::uint64_t> waits_since(const StepRecord& row) {
 
 std::optional<Wait> longest_wait(std::span<const StepRecord* const> rows, double step_s) {
   std::optional<Wait> longest;
+  std::optional<Wait> current;
   for (const StepRecord* row : rows) {
     const coordination::Report& report = row->record.report;
-    const double duration_s = coordination::wait_s(report, step_s);
-    if (duration_s <= (longest ? longest->duration_s : 0.0)) continue;
-    longest = Wait{.duration_s = duration_s,
-                   .since_step = waits_since(*row).value(),
-                   .vehicles = report.waiting.vehicles};
+    const std::optional<std::uint64_t> since = waits_since(*row);
+    if (!since) continue;
+    if (!current || current->since_step != *since) current = Wait{.since_step = *since};
+    current->duration_s = coordination::wait_s(report, step_s);
+    for (const VehicleId vehicle : report.waiting.vehicles) {
+      if (std::ranges::count(current->vehicles, vehicle) == 0) current->vehicles.push_back(vehicle);
+    }
+    if (current->duration_s > (longest ? longest->duration_s : 0.0)) longest = current;
   }
   return longest;
 }

@@ -17,7 +17,7 @@ struct RunSummary;
 struct Wait {
   double duration_s{};              ///< up to the end of the last step in which it waited
   std::uint64_t since_step{};       ///< from 0: k - k0
-  std::vector<VehicleId> vehicles;  ///< those it waited for in that last step
+  std::vector<VehicleId> vehicles;  ///< those it waited for, in the order in which it began to
 };
 
 /// Step from which on the vehicle waits in this row, from 0: k - k0; none: it does not wait.

@@ -218,6 +218,11 @@ void add_drives(const RunComparison& comparison, const ComparedRun& run, const c
   }
 }
 
+/// Where a car is elsewhere first; if none is, the first difference of any kind.
+const std::optional<result::Difference>& marked(const RunComparison& comparison) {
+  return comparison.apart ? comparison.apart : comparison.first;
+}
+
 /// Where the vehicle is in that step; where it plans to be if its motion was not recorded.
 std::optional<Point> place_of(const ComparedRun& run, const result::Difference& at) {
   const auto row = std::ranges::find_if(run.rows, [&](const result::StepRecord& candidate) {
@@ -238,9 +243,11 @@ std::string legend(const RunComparison& comparison) {
   std::string html = "<p class=\"legend\">\n";
   html += sample(fmt::format(fmt::runtime(line), "a", neutral), "first run");
   html += sample(fmt::format(fmt::runtime(line), "b", neutral), "second run");
-  if (comparison.first) {
+  if (const auto& mark = marked(comparison)) {
     html += sample(R"(<circle class="mark" cx="17" cy="7" r="5"/>)",
-                   fmt::format("first difference, vehicle {}", comparison.first->vehicle.value));
+                   fmt::format("{}, vehicle {}, step {}",
+                               comparison.apart ? "first elsewhere" : "first difference",
+                               mark->vehicle.value, mark->step));
   }
   std::size_t number = 0;
   for (const std::uint8_t id : vehicle_ids(comparison)) {
@@ -259,8 +266,8 @@ std::string picture_html(const RunComparison& comparison,
   add_drives(comparison, comparison.a, "a", picture);
   add_drives(comparison, comparison.b, "b", picture);
   for (const ComparedRun* run : {&comparison.a, &comparison.b}) {
-    if (!comparison.first) break;
-    if (const auto at_m = place_of(*run, *comparison.first)) picture.add_ring(*at_m);
+    if (!marked(comparison)) break;
+    if (const auto at_m = place_of(*run, *marked(comparison))) picture.add_ring(*at_m);
   }
   return picture.svg() + legend(comparison);
 }

@@ -69,8 +69,8 @@ std::vector<Visualization> lab_map(const controller::Controller& controller,
                                                .color = in_color});
   };
   if (!controller.problems().empty()) {
-    add(Item::kReference, DrawingKind::kLineStrips, controller.problems().back().reference_m,
-        kReferenceWidth_m, kReferenceColor);
+    add(Item::kReference, DrawingKind::kLineStrips,
+        controller.problems().back().problem.reference_m, kReferenceWidth_m, kReferenceColor);
   }
   if (!controller.has_plan()) return drawings;
   std::vector<Point> path_m =

@@ -60,11 +60,21 @@ void add_explanations(const FinishedRun& run, Json& messages) {
   for (const result::VehicleDescription& vehicle : run.description.vehicles) {
     Json steps = Json::array();
     for (const result::Explanation& one : run.explanations) {
-      if (one.vehicle == vehicle.id) steps.push_back({one.step, one.text});
+      if (one.vehicle == vehicle.id) steps.push_back({one.step, one.last, one.text});
     }
     if (steps.empty() || !takes_part(vehicle.id, run.facts)) continue;
     messages.push_back(
         {{"kind", "why"}, {"vehicle", vehicle.id.value}, {"steps", std::move(steps)}});
+  }
+}
+
+void add_searches(const FinishedRun& run, Json& messages) {
+  for (const result::SearchPage& one : run.searches) {
+    if (!takes_part(one.vehicle, run.facts)) continue;
+    messages.push_back({{"kind", "search"},
+                        {"vehicle", one.vehicle.value},
+                        {"step", one.step},
+                        {"page", one.html}});
   }
 }
 
@@ -75,6 +85,7 @@ std::string page_messages(const FinishedRun& run) {
   add_steps(run, messages);
   add_drives(run, messages);
   add_explanations(run, messages);
+  add_searches(run, messages);
   messages.push_back(log_message(run.log));
   return text_of(messages);
 }

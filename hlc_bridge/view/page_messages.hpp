@@ -23,7 +23,9 @@
 ///   lists of numbers: of vehicles; in `plan` of its maneuvers, from the one under way on, as far
 ///   as they are known; in `held` road, first cell and number of cells, or nothing;
 /// * `drive`: states of one vehicle at equal times, without a gap;
-/// * `why`: explanations of one vehicle: `steps` is a list of [step, text], a text with line feeds;
+/// * `why`: explanations of one vehicle: `steps` is a list of [first step, last step, text], a text
+///   with line feeds;
+/// * `search`: what one vehicle searched in one step, as a page of its own;
 /// * `log`: lines;
 /// * `end`: in a run under way only, see live_messages.hpp.
 ///
@@ -42,10 +44,14 @@ struct FinishedRun {
   std::optional<road::LaneletMap> map;  ///< none: open ground
   std::vector<result::LoggedLine> log;
   std::vector<result::Explanation> explanations;
-  std::string time;         ///< kind of time, as text: "logical time"
-  std::string revision;     ///< of the programs
-  std::string fault;        ///< what was wrong with the drive; empty: nothing
-  bool can_be_explained{};  ///< explain can drive it again
+  std::vector<result::SearchPage> searches;
+  std::vector<result::AddedObstacle> obstacles;
+  std::string fork;      ///< what was changed in it, as text; empty: nothing
+  std::string time;      ///< kind of time, as text: "logical time"
+  std::string revision;  ///< of the programs
+  std::string fault;     ///< what was wrong with the drive; empty: nothing
+  /// How a step can be explained: N stands for the vehicle, K for the step; empty: not yet.
+  std::string how_explained;
 };
 
 /// All messages of the run as one JSON array. Equal runs give equal bytes. Bytes that are not UTF-8

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hlc_bridge/view/page_words.hpp"
 #include "hlc_bridge/view/step_messages.hpp"
 #include "planner/right_of_way/conflict_zones.hpp"
 
@@ -17,8 +18,6 @@ namespace {
 
 constexpr int kFormat = 2;  ///< page/model.js has the same
 constexpr Nanoseconds kNanosecondsPerMillisecond = 1'000'000;
-constexpr const char* kHowToExplain =
-    "explain RUN --vehicle N --step K answers it; explain RUN --all fills this row";
 
 /// Names of the enumerators from 0 to `last`.
 template <class Enum>
@@ -52,7 +51,7 @@ std::string about(const FinishedRun& run) {
   std::vector<std::string> words{
       fmt::format("{} cars", run.facts.vehicle_ids.size()),
       "profile " + description.profile,
-      run.time,
+      run.time + (run.fork.empty() ? "" : ", " + run.fork),
       description.map.empty() ? "open ground" : "map " + description.map,
       "subgraph " + description.subgraph,
       fmt::format("horizon {} steps of {} s", description.horizon_steps, description.step_s),
@@ -74,6 +73,19 @@ std::string faults(const FinishedRun& run) {
   if (!run.fault.empty()) words.push_back(run.fault);
   if (run.facts.exit_code != 0) words.push_back(fmt::format("exit code {}", run.facts.exit_code));
   return fmt::format("{}", fmt::join(words, "; "));
+}
+
+Json obstacles_json(const FinishedRun& run) {
+  Json json = Json::array();
+  for (const result::AddedObstacle& one : run.obstacles) {
+    json.push_back({{"x", one.pose.x_m},
+                    {"y", one.pose.y_m},
+                    {"yaw", one.pose.heading_rad},
+                    {"length_m", one.length_m},
+                    {"width_m", one.width_m},
+                    {"from_s", static_cast<double>(one.from) * run.description.step_s}});
+  }
+  return json;
 }
 
 Json vehicle_json(const result::VehicleDescription& vehicle) {
@@ -114,7 +126,9 @@ Json run_message(const FinishedRun& run) {
             {"scenario", description.scenario},
             {"about", about(run)},
             {"fault", faults(run)},
-            {"why", run.can_be_explained ? kHowToExplain : ""},
+            {"why", run.how_explained},
+            {"words", page_words()},
+            {"obstacles", obstacles_json(run)},
             {"step_s", description.step_s},
             {"stuck_after_s", coordination::kStuckAfter_s},
             {"tables", column_tables()},

@@ -95,13 +95,6 @@ void check_tree_flags(const Flags& flags) {
   }
 }
 
-void check_tree_search(const Flags& flags, const hlc::search::SearchOptions& search) {
-  if (!flags.tree.file || hlc::search::is_admissible(search.cost_to_go)) return;
-  throw std::invalid_argument(
-      fmt::format("cost_to_go = {} with --tree, must be reachable or straight_line",
-                  hlc::search::to_string(search.cost_to_go)));
-}
-
 hlc::scenario::ProblemFile read(const Flags& flags) {
   hlc::scenario::ProblemFile file = hlc::scenario::read_problem_file(flags.file, flags.automaton);
   try {
@@ -114,7 +107,7 @@ hlc::scenario::ProblemFile read(const Flags& flags) {
   }
   try {
     if (flags.max_expansions) file.search.max_expansions = *flags.max_expansions;
-    check_tree_search(flags, file.search);
+    if (flags.tree.file) hlc::search::check_can_be_recorded(file.search);
     hlc::scenario::check_can_be_searched(file);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(flags.file.string() + ": " + error.what());

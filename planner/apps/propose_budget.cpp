@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -73,8 +74,8 @@ std::vector<hlc::search::HorizonProblem> problems_of(const hlc::scenario::Scenar
   for (std::size_t i = 0; i < scenario.steps; ++i) {
     rollout.step();
     for (const auto& controller : rollout.controllers()) {
-      const auto posed = controller->problems();
-      problems.insert(problems.end(), posed.begin(), posed.end());
+      std::ranges::transform(controller->problems(), std::back_inserter(problems),
+                             &hlc::controller::SearchedProblem::problem);
     }
   }
   return problems;

@@ -81,7 +81,7 @@ bool others_changed_the_plan(const hlc::controller::Controller& controller,
                              const hlc::coordination::Report& report) {
   if (controller.problems().empty() || report.status != hlc::coordination::StepStatus::kPlanned)
     return false;
-  hlc::search::HorizonProblem problem = controller.problems().back();
+  hlc::search::HorizonProblem problem = controller.problems().back().problem;
   problem.obstacles_m.clear();
   return alone.search(problem).cost < report.cost_m2 - 1e-9;
 }

@@ -60,15 +60,13 @@ int main(int argc, char** argv) {
   hlc::scenario::ScenarioChoices choices;
   bool starts = false;
   bool steps = false;
-  bool policy = false;
   hlc::apps::OutputFile plot{"--plot", {}};
   hlc::apps::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::apps::whole(1, 100000));
   app.add_flag("--starts", starts,
-               "print only `id x,y,yaw stamps` per vehicle (the next two may follow)");
+               "print only `id x,y,yaw stamps` per vehicle (the next one may follow)");
   app.add_flag("--print_steps", steps, "print only the number of steps");
-  app.add_flag("--print_policy", policy, "print only the name of the policy in force, or none");
   hlc::apps::declare_output(app, plot,
                             "draw lanes, reference paths and cars at the start (SVG); with "
                             "--starts also their poses: a sheet to place them by");
@@ -86,8 +84,7 @@ int main(int argc, char** argv) {
     }
     if (starts) print_starts(scenario);
     if (steps) std::printf("%zu\n", scenario.steps);
-    if (policy) std::printf("%s\n", scenario.policy.c_str());
-    if (!starts && !steps && !policy) print_table(scenario);
+    if (!starts && !steps) print_table(scenario);
   };
   return hlc::apps::exit_code_of("show_scenario", run, kExitFailed);
 }

@@ -64,7 +64,7 @@ bool is_free(const PlanCandidate& candidate, const CandidateInputs& inputs) {
       !(std::ranges::all_of(areas.areas_m, is_in_reach) && is_in_reach(areas.final_area_m))) {
     return false;
   }
-  const auto& obstacles_m = candidate.problems.back().obstacles_m;
+  const auto& obstacles_m = candidate.problems.back().problem.obstacles_m;
   for (std::size_t j = 0; j < obstacles_m.size(); ++j) {
     const ConvexPolygon& area = areas.during({inputs.now.value + 1 + j});
     if (std::ranges::any_of(obstacles_m[j], [&area](const ConvexPolygon& obstacle) {
@@ -125,7 +125,7 @@ std::uint64_t CandidateSearch::warm_up(const search::HorizonProblem& problem) {
 PlanCandidate CandidateSearch::find(search::HorizonProblem problem, const CandidateInputs& inputs,
                                     coordination::Report& report) {
   PlanCandidate candidate;
-  candidate.problems.push_back(std::move(problem));
+  candidate.problems.push_back({std::move(problem), on().subgraph});
   search_with_and_without_drift(current_, inputs, candidate, report);
   if (former_) search_on_former(inputs, candidate, report);
   return candidate;
@@ -134,7 +134,8 @@ PlanCandidate CandidateSearch::find(search::HorizonProblem problem, const Candid
 void CandidateSearch::search_on(EngineCache& on, const CandidateInputs& inputs,
                                 PlanCandidate& candidate, coordination::Report& report) {
   const automaton::Subgraph& subgraph = *on.on().subgraph;
-  const search::SearchResult result = on.search(candidate.problems.back(), inputs.budget_share);
+  const search::SearchResult result =
+      on.search(candidate.problems.back().problem, inputs.budget_share);
   add_figures(result, subgraph, report);
   if (result.status == search::SearchStatus::kFallback) {
     candidate.obstacle = result.reason == search::NoPath::kBudget
@@ -161,8 +162,8 @@ void CandidateSearch::search_with_and_without_drift(EngineCache& on, const Candi
                                                     coordination::Report& report) {
   search_on(on, inputs, candidate, report);
   if (candidate.obstacle != coordination::FallbackReason::kConflict) return;
-  search::HorizonProblem without_drift = candidate.problems.back();
-  without_drift.avoids_steering_limit = true;
+  SearchedProblem without_drift = candidate.problems.back();
+  without_drift.problem.avoids_steering_limit = true;
   candidate.problems.push_back(std::move(without_drift));
   candidate.obstacle = coordination::FallbackReason::kNone;
   search_on(on, inputs, candidate, report);
@@ -177,7 +178,7 @@ void CandidateSearch::search_on_former(const CandidateInputs& inputs, PlanCandid
   // A second search would take as long again: the former subgraph is tried in the next step.
   if (candidate.obstacle == coordination::FallbackReason::kBudget) return;
   candidate.obstacle = coordination::FallbackReason::kNone;
-  if (candidate.problems.size() > 1) candidate.problems.push_back(candidate.problems.front());
+  candidate.problems.push_back({candidate.problems.front().problem, former_->engine.on().subgraph});
   search_with_and_without_drift(former_->engine, inputs, candidate, report);
 }
 

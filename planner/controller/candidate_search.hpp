@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,14 +22,20 @@ struct CandidateInputs {
   std::size_t budget_share{1};  ///< a search may use one expansion in so many of its budget
 };
 
+/// A problem and the subgraph that it was searched on.
+struct SearchedProblem {
+  search::HorizonProblem problem;
+  std::shared_ptr<const automaton::Subgraph> subgraph;
+};
+
 /// Result of the search for a new plan.
 struct PlanCandidate {
   std::optional<coordination::Plan> plan;  ///< none: see `obstacle`
   coordination::OccupiedAreas areas;       ///< of the plan from t(k+1) on
   coordination::FallbackReason obstacle{coordination::FallbackReason::kNone};
-  /// Problems given to the search, in order: two if the first plan would have drifted into
-  /// something, after a switch perhaps more.
-  std::vector<search::HorizonProblem> problems;
+  /// What was searched, in order: two if the first plan would have drifted into something, after a
+  /// switch perhaps more.
+  std::vector<SearchedProblem> problems;
 };
 
 /// Searches a new plan and checks it: the vehicle must be able to follow it, and its drift

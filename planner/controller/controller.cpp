@@ -101,7 +101,7 @@ coordination::Traffic Controller::observe(const Observation& observation) {
   HLC_DEMAND(has_plan());
   const StepIndex now = observation.step;
   former_problem_.reset();
-  if (!problems().empty()) former_problem_ = std::move(step_.candidate.problems.front());
+  if (!problems().empty()) former_problem_ = std::move(step_.candidate.problems.front().problem);
   step_ = Step{};
   step_.observation = observation;
   neighbours_.begin_step(now);

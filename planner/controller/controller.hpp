@@ -179,9 +179,9 @@ class Controller {
   [[nodiscard]] const coordination::Traffic& traffic_of(VehicleId vehicle) const {
     return vehicle == options_.vehicle ? step_.traffic : neighbours_.traffic_of(vehicle);
   }
-  /// The problems that `plan` gave to the search (PlanCandidate::problems): none if it did not get
-  /// that far. Valid until the next step.
-  [[nodiscard]] std::span<const search::HorizonProblem> problems() const {
+  /// What `plan` searched (PlanCandidate::problems): none if it did not get that far. Valid until
+  /// the next step.
+  [[nodiscard]] std::span<const SearchedProblem> problems() const {
     return step_.candidate.problems;
   }
   /// The problems before those, when the vehicle stands and is to drive off: they determine the

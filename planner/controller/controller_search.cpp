@@ -90,7 +90,7 @@ void Controller::keep_in_lane_where_held_up(const search::HorizonProblem& proble
 
 /// The problems of former searches stay.
 void Controller::search_plan(search::HorizonProblem problem, std::size_t budget_share) {
-  std::vector<search::HorizonProblem> problems = std::move(step_.candidate.problems);
+  std::vector<SearchedProblem> problems = std::move(step_.candidate.problems);
   step_.candidate = search_.find(std::move(problem),
                                  {.in_force = *in_force_,
                                   .now = step_.observation.step,
@@ -146,7 +146,7 @@ PlanWithout Controller::search_again(const LeftOut& left_out) {
   search_candidate();
   return {.plan = step_.candidate.plan,
           .cost_m2 = step_.report.cost_m2,
-          .problem = step_.candidate.problems.back()};
+          .problem = step_.candidate.problems.back().problem};
 }
 
 }  // namespace hlc::controller

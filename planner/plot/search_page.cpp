@@ -64,7 +64,7 @@ std::string first_maneuvers(const scenario::ProblemFile& file, const RecordedSea
   }
   return "<h2>What the plan could have begun with</h2>\n"
          "<p class=\"note\">Each maneuver that can be driven in the first step, with the best plan "
-         "that begins with it.</p>\n" +
+         "that begins with it. Areas are numbered as on the map below.</p>\n" +
          table({"first maneuver", "cost [m²]", "more [m²]", "what became of it"}, rows, true);
 }
 
@@ -112,11 +112,11 @@ std::string obstacle_table(const search::HorizonProblem& problem, const Occupied
     return html + "<p>The problem has neither obstacles nor a boundary.</p>\n";
   }
   html +=
-      "<p class=\"note\">A vertex that meets several counts for the first. Vertices that were "
-      "never "
-      "taken from the open list were not checked.</p>\n";
+      "<p class=\"note\">An area is what another vehicle may occupy in a step, the end of the "
+      "right of way, or an obstacle. A vertex that meets several counts for the first. "
+      "Vertices that were never taken from the open list were not checked.</p>\n";
   if (!rows.empty()) html += table({"what", "in steps", "vertices dropped"}, rows, false);
-  if (others > 0) html += fmt::format("<p>Areas that ruled out no vertex: {}.</p>\n", others);
+  if (others > 0) html += fmt::format("<p>{} more areas ruled out no vertex.</p>\n", others);
   return html;
 }
 

@@ -4,14 +4,70 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <memory>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "planner/maneuver_design/automaton_configuration.hpp"
+#include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/scenario/problem_file.hpp"
 
 namespace hlc::scenario {
+namespace {
+
+/// Whether the problem needs more of the automaton than the part that its subgraph enables: after a
+/// switch it may start from a disabled trim, or its plan in force have disabled edges.
+bool needs_disabled(const automaton::Subgraph& subgraph, const search::HorizonProblem& problem) {
+  const auto is_enabled_edge = [&](const automaton::Maneuver* maneuver) {
+    const auto edges = subgraph.successors(maneuver->from);
+    return subgraph.is_enabled(maneuver->from) &&
+           std::ranges::find(edges, maneuver, &automaton::Edge::maneuver) != edges.end();
+  };
+  return !subgraph.is_enabled(problem.start_trim) ||
+         !std::ranges::all_of(problem.incumbent, is_enabled_edge);
+}
+
+/// Those of the plan in force that the subgraph's automaton does not hold: designed for weights
+/// that were requested before.
+std::vector<const automaton::Maneuver*> foreign_maneuvers(const automaton::Subgraph& subgraph,
+                                                          const search::HorizonProblem& problem) {
+  std::vector<const automaton::Maneuver*> foreign;
+  for (const automaton::Maneuver* maneuver : problem.incumbent) {
+    const bool is_known =
+        subgraph.automaton().find(maneuver->from, maneuver->to, maneuver->label) != nullptr ||
+        std::ranges::any_of(foreign, [maneuver](const automaton::Maneuver* one) {
+          return one->from == maneuver->from && one->to == maneuver->to &&
+                 one->label == maneuver->label;
+        });
+    if (!is_known) foreign.push_back(maneuver);
+  }
+  return foreign;
+}
+
+std::vector<std::string> labels_of(const automaton::UniversalAutomaton& automaton) {
+  std::set<std::string> labels;
+  for (const automaton::Maneuver& maneuver : automaton.maneuvers) {
+    if (maneuver.from != maneuver.to) labels.insert(maneuver.label);
+  }
+  return {labels.begin(), labels.end()};
+}
+
+/// Of a scenario's automaton: the file's origin, without automaton and subgraphs.
+automaton::AutomatonFile origin_of(const std::filesystem::path& path) {
+  automaton::AutomatonFile file =
+      automaton::is_automaton_file(path)
+          ? automaton::read_automaton_file(path)
+          : maneuver_design::file_of(maneuver_design::read_automaton_configuration(path), {});
+  file.automaton = nullptr;
+  file.subgraphs.clear();
+  return file;
+}
+
+}  // namespace
 
 ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::path& automaton_file,
                          automaton::SubgraphSpec declared)
@@ -21,33 +77,71 @@ ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::pa
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error || access(folder_.c_str(), W_OK | X_OK) != 0) {
-    throw std::invalid_argument("--dump-problems = " + folder_.string() +
+    throw std::invalid_argument("folder of the planning problems = " + folder_.string() +
                                 ", must be a folder that can be created and written to");
   }
 }
 
-void ProblemDump::write(const controller::Controller& controller) const {
-  const controller::ControllerOptions& options = controller.options();
-  if (controller.subgraph().spec() != declared_) {
-    throw std::runtime_error(
-        fmt::format("problems on subgraph '{}' cannot be written: {} does not declare it",
-                    controller.subgraph().spec().name, automaton_file_.string()));
+std::filesystem::path ProblemDump::automaton_file_for(VehicleId vehicle,
+                                                      const controller::SearchedProblem& searched) {
+  const automaton::Subgraph& subgraph = *searched.subgraph;
+  if (subgraph.spec() == declared_ && !needs_disabled(subgraph, searched.problem)) {
+    return automaton_file_;
   }
-  const auto write_all = [&](std::span<const search::HorizonProblem> problems, const char* what) {
-    std::size_t number = 0;
-    for (const search::HorizonProblem& problem : problems) {
-      const std::string name =
-          fmt::format("vehicle_{}_step_{:010}_{}_{}.json", options.vehicle.value,
-                      controller.last_step().value, what, ++number);
-      write_problem_file({.automaton_file = automaton_file_,
-                          .subgraph = controller.prepared_subgraph().subgraph,
-                          .problem = problem,
-                          .search = options.search},
-                         folder_ / name);
+  const Foreign foreign = foreign_maneuvers(subgraph, searched.problem);
+  if (!foreign.empty()) return write_automaton(vehicle, subgraph, foreign);
+  const auto known = std::ranges::find_if(written_, [&](const auto& one) {
+    return one.first->spec() == subgraph.spec() &&
+           one.first->shared_automaton() == subgraph.shared_automaton();
+  });
+  if (known != written_.end()) return known->second;
+  const auto& written =
+      written_.emplace_back(searched.subgraph, write_automaton(vehicle, subgraph, {}));
+  return written.second;
+}
+
+std::filesystem::path ProblemDump::write_automaton(VehicleId vehicle,
+                                                   const automaton::Subgraph& subgraph,
+                                                   const Foreign& foreign) {
+  if (!origin_) origin_ = origin_of(automaton_file_);
+  automaton::AutomatonFile file = *origin_;
+  automaton::UniversalAutomaton automaton = subgraph.automaton();
+  automaton::SubgraphSpec& spec = file.subgraphs.emplace_back(subgraph.spec());
+  for (const automaton::Maneuver* maneuver : foreign) {
+    automaton.maneuvers.push_back(*maneuver);
+    // The exits from disabled trims (subgraph.hpp) stay those of the given automaton.
+    if (!subgraph.is_enabled(maneuver->from)) {
+      spec.disabled_edges.push_back({{maneuver->from, maneuver->to}, maneuver->label});
     }
+  }
+  file.labels = labels_of(automaton);
+  file.automaton = std::make_shared<const automaton::UniversalAutomaton>(std::move(automaton));
+  std::filesystem::path name =
+      fmt::format("vehicle_{}_automaton_{}.yaml", vehicle.value, ++num_written_);
+  automaton::write_automaton_file(file, folder_ / name);
+  return name;
+}
+
+void ProblemDump::write(const controller::Controller& controller) {
+  const controller::ControllerOptions& options = controller.options();
+  const auto write_one = [&](const controller::SearchedProblem& searched, const char* what,
+                             std::size_t number) {
+    const std::string name = fmt::format("vehicle_{}_step_{:010}_{}_{}.json", options.vehicle.value,
+                                         controller.last_step().value, what, number);
+    write_problem_file({.automaton_file = automaton_file_for(options.vehicle, searched),
+                        .subgraph = searched.subgraph,
+                        .problem = searched.problem,
+                        .search = options.search},
+                       folder_ / name);
   };
-  write_all(controller.entry_problems(), "lane_entry");
-  write_all(controller.problems(), "search");
+  std::size_t number = 0;
+  for (const search::HorizonProblem& problem : controller.entry_problems()) {
+    write_one({problem, controller.prepared_subgraph().subgraph}, "lane_entry", ++number);
+  }
+  number = 0;
+  for (const controller::SearchedProblem& searched : controller.problems()) {
+    write_one(searched, "search", ++number);
+  }
 }
 
 }  // namespace hlc::scenario

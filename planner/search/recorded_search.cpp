@@ -1,8 +1,20 @@
 #include "planner/search/recorded_search.hpp"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "planner/search/best_first/best_first_search.hpp"
+#include "planner/search/search_options.hpp"
 
 namespace hlc::search {
+
+void check_can_be_recorded(const SearchOptions& options) {
+  if (is_admissible(options.cost_to_go)) return;
+  throw std::invalid_argument(
+      fmt::format("cost_to_go = {} with --tree, must be reachable or straight_line",
+                  to_string(options.cost_to_go)));
+}
 
 RecordedSearch record_search(const automaton::Subgraph& subgraph,
                              const automaton::ReachableSets& reachable, SearchOptions options,

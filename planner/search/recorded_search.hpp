@@ -19,6 +19,9 @@ struct RecordedSearch {
   std::vector<Alternative> alternatives;
 };
 
+/// @throws std::invalid_argument with one line if the cost-to-go is not admissible
+void check_can_be_recorded(const SearchOptions& options);
+
 /// Searches with the best-first engine, whatever engine the options name; for the alternatives with
 /// the fast engine if it has the cost-to-go.
 /// @param reachable  belongs to `subgraph`

@@ -74,7 +74,7 @@ std::vector<search::HorizonProblem> three_cars_problems(
   std::vector<search::HorizonProblem> problems;
   for (std::size_t step = 0; step < steps; ++step) {
     static_cast<void>(rollout.step());
-    if (!red.problems().empty()) problems.push_back(red.problems().front());
+    if (!red.problems().empty()) problems.push_back(red.problems().front().problem);
   }
   return problems;
 }

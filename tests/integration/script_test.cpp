@@ -185,12 +185,15 @@ std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> searched_vertices
 TEST_F(Scripts, PlanningProblemsOfARunAreSolvedAgainWithTheSameVertices) {
   const std::filesystem::path out = folder_ / "run";
   const std::filesystem::path problems = out / "problems";
-  ChildProcess run = run_lab({"--steps", "10", "--engine", "best_first", "--dump-problems",
-                              problems.string(), "--out", out.string()});
+  ChildProcess run =
+      run_lab({"--scenario", "reconfiguration.yaml", "--steps", "10", "--engine", "best_first",
+               "--dump-problems", problems.string(), "--out", out.string()});
   ASSERT_EQ(run.wait_for(120s), 0) << output();
   auto expected = searched_vertices(out / "reports.csv");
   EXPECT_GE(expected.size(), 30U);
+  EXPECT_TRUE(std::filesystem::exists(problems / "vehicle_1_automaton_1.yaml")) << "no switch";
   for (const auto& entry : std::filesystem::directory_iterator(problems)) {
+    if (entry.path().extension() != ".json") continue;
     const std::string name = entry.path().stem().string();
     SCOPED_TRACE(name);
     ChildProcess again({kBin + "/plan_problem", "--json", entry.path().string()},

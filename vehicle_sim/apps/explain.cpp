@@ -18,8 +18,12 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/record/explanation_file.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
+#include "hlc_bridge/result/run_summary.hpp"
 #include "planner/apps/flags.hpp"
+#include "planner/common/text_file.hpp"
+#include "planner/plot/search_page.hpp"
 #include "planner/scenario/problem_dump.hpp"
+#include "planner/search/recorded_search.hpp"
 #include "vehicle_sim/apps/explain_all.hpp"
 #include "vehicle_sim/apps/explanation.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
@@ -36,6 +40,7 @@ struct Choices {
   std::uint8_t vehicle{};
   std::uint64_t step{};
   bool all{};
+  bool tree{};
   std::filesystem::path problems;
 };
 
@@ -47,10 +52,29 @@ const hlc::coordination::Report* report_of(const Rows& rows, const Choices& choi
   return found == rows.end() ? nullptr : &found->record.report;
 }
 
+/// What the controller searched last in the step, as a page.
+std::string search_page_of(const hlc::controller::Controller& controller,
+                           const std::filesystem::path& automaton_file) {
+  if (controller.problems().empty()) {
+    throw std::invalid_argument(fmt::format("--tree: vehicle {} searched nothing in this step",
+                                            controller.options().vehicle.value));
+  }
+  const hlc::controller::SearchedProblem& searched = controller.problems().back();
+  const hlc::scenario::ProblemFile file{.automaton_file = automaton_file,
+                                        .subgraph = searched.subgraph,
+                                        .problem = searched.problem,
+                                        .search = controller.options().search};
+  hlc::search::check_can_be_recorded(file.search);
+  const hlc::automaton::ReachableSets reachable(*file.subgraph, file.problem.horizon_steps());
+  return hlc::plot::search_page(
+      file, hlc::search::record_search(*file.subgraph, reachable, file.search, file.problem));
+}
+
 struct Driven {
   Rows rows;
   hlc::apps::StepOutcome outcome;  ///< of the vehicle in the step
   hlc::apps::StepAnswers answers;
+  std::string search_page;  ///< if wanted
 };
 
 /// Drives the run up to the step, and with some vehicles gone from the step on.
@@ -65,15 +89,18 @@ class Drives {
   }
 
   /// @param dump  receives the planning problems; may be nullptr
-  [[nodiscard]] Driven as_it_was(const hlc::scenario::ProblemDump* dump) const {
+  [[nodiscard]] Driven as_it_was(hlc::scenario::ProblemDump* dump) const {
     hlc::apps::StepAnswers answers;
+    std::string search_page;
     Driven driven = drive(options_, [&](const hlc::controller::Controller& controller,
                                         const hlc::policy::SubgraphSelector& chosen,
                                         const hlc::coordination::Report& report) {
       if (dump != nullptr) dump->write(controller);
+      if (choices_.tree) search_page = search_page_of(controller, run_.scenario.automaton_file);
       answers = hlc::apps::answers_of(controller, chosen, report, run_.scenario.policy);
     });
     driven.answers = std::move(answers);
+    driven.search_page = std::move(search_page);
     return driven;
   }
 
@@ -138,7 +165,21 @@ std::vector<VehicleId> that_may_matter(const hlc::coordination::Report& report,
   return {found.begin(), found.end()};
 }
 
-int explain_step(const hlc::record::RunFolder& run, const Choices& choices) {
+/// The page as a file of its own and within the run's page.
+void keep_search_page(hlc::record::RunFolder run, const Choices& choices,
+                      const std::string& search_page) {
+  const std::filesystem::path file =
+      hlc::record::search_page_file(run.folder, hlc::VehicleId{choices.vehicle}, choices.step);
+  std::filesystem::create_directories(file.parent_path());
+  hlc::write_file(file, search_page);
+  const hlc::apps::Verdict verdict = hlc::apps::verdict_on(
+      hlc::result::summarize(run.description, run.facts, run.rows, run.drives));
+  std::cout << fmt::format("\nwhat was searched: {}\nthe run as a page, with it: {}\n",
+                           file.string(), hlc::apps::page_file(run.folder).string());
+  hlc::apps::write_page(std::move(run), verdict.fault);
+}
+
+int explain_step(hlc::record::RunFolder run, const Choices& choices) {
   check_choices(run, choices);
   const Drives drives(run, choices);
   std::optional<hlc::scenario::ProblemDump> dump;
@@ -156,15 +197,21 @@ int explain_step(const hlc::record::RunFolder& run, const Choices& choices) {
     for (const VehicleId one : may_matter) explained.without_one.push_back(drives.without({one}));
   }
   std::cout << hlc::apps::explanation(explained);
+  if (choices.tree) keep_search_page(std::move(run), choices, driven.search_page);
   return hlc::kExitGood;
 }
 
 int explain(const Choices& choices) {
   hlc::record::RunFolder run = hlc::record::read_run_folder(choices.run);
-  if (!choices.all) return explain_step(run, choices);
+  for (const std::string& line : run.incomplete) {
+    std::cerr << "explain: " << choices.run.string() << ": " << line << '\n';
+  }
+  if (!choices.all) return explain_step(std::move(run), choices);
   const std::size_t count = hlc::apps::explain_all(std::move(run));
   const char* const why_none =
-      count > 0 ? "" : " (no vehicle began to wait, to keep its plan, to stop or to miss others)";
+      count > 0
+          ? ""
+          : " (no vehicle began to brake to a stand, to wait, to keep its plan or to miss others)";
   std::cout << fmt::format("{} steps explained{}: {}\nthe run as a page: {}\n", count, why_none,
                            hlc::record::explanations_file(choices.run).string(),
                            hlc::apps::page_file(choices.run).string());
@@ -190,15 +237,20 @@ int main(int argc, char** argv) {
           ->check(hlc::apps::whole(0, 100000));
   CLI::Option* const all = app.add_flag(
       "--all", choices.all,
-      "instead: explains every step in which a vehicle begins to keep its plan, to stop, to wait "
-      "or to miss others, by searches alone (the run is driven once; some seconds for 20 cars and "
-      "150 "
-      "steps), writes explanations.csv into the run folder and its run.html again with them");
+      "instead: explains every step in which a vehicle begins to keep its plan, to brake to a "
+      "stand, to wait or to miss others, by searches alone (the run is driven once; some seconds "
+      "for 20 cars and 150 steps), writes explanations.csv into the run folder and its run.html "
+      "again with them");
   CLI::Option* const problems = app.add_option(
       "--problems", choices.problems, "folder for the step's planning problems, for plan_problem");
-  all->excludes(vehicle)->excludes(step)->excludes(problems);
+  CLI::Option* const tree = app.add_flag(
+      "--tree", choices.tree,
+      "also shows what was searched in the step, vertex by vertex: searches it again with the "
+      "plain engine and writes searches/vehicle_N_step_K.html into the run folder, and its "
+      "run.html again with it");
+  all->excludes(vehicle)->excludes(step)->excludes(problems)->excludes(tree);
   app.footer(
-      "Examples:\n  explain runs/one --vehicle 3 --step 57\n  explain runs/one --all\n"
+      "Examples:\n  explain runs/one --vehicle 3 --step 57 --tree\n  explain runs/one --all\n"
       "Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
   if (!choices.all && (vehicle->empty() || step->empty())) {

@@ -45,6 +45,19 @@ bool can_be_created(const fs::path& folder) {
   return is_created;
 }
 
+/// Without the permissions: copies of what may only be read can be removed again.
+void copy_files(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to);
+  for (const fs::directory_entry& entry : fs::directory_iterator(from)) {
+    const fs::path copy = to / entry.path().filename();
+    if (entry.is_directory()) {
+      copy_files(entry, copy);
+    } else {
+      write_file(copy, read_file(entry));
+    }
+  }
+}
+
 }  // namespace
 
 closed_loop::ExperimentOptions options_of_run(const record::RunFolder& run) {
@@ -105,17 +118,21 @@ fs::path fork_folder(const record::RunFolder& run, std::uint64_t from, const fs:
 
 void write_fork(const fs::path& folder, const record::RunFolder& run, std::uint64_t from,
                 const std::vector<std::string>& set, const closed_loop::Experiment& experiment) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error) {
-    fs::copy(run.folder / "configuration", folder / "configuration", fs::copy_options::recursive,
-             error);
+  const bool was_there = fs::exists(folder);
+  try {
+    copy_files(run.folder / "configuration", folder / "configuration");
+    std::vector<record::KeptFork> forks = record::kept_forks(run.folder);
+    forks.push_back({.from = from, .set = set});
+    write_file(record::forks_file(folder), record::forks_yaml(forks));
+    write_records(folder, experiment);
+  } catch (const std::exception&) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      fs::remove_all(entry, error);
+    }
+    if (!was_there) fs::remove(folder, error);
+    throw;
   }
-  if (error) throw std::runtime_error(folder.string() + ": " + error.message());
-  std::vector<record::KeptFork> forks = record::kept_forks(run.folder);
-  forks.push_back({.from = from, .set = set});
-  write_file(record::forks_file(folder), record::forks_yaml(forks));
-  write_records(folder, experiment);
 }
 
 }  // namespace hlc::apps

@@ -71,6 +71,15 @@ int compare_with(const hlc::record::RunFolder& recorded, const Rows& rows, std::
   return kExitDiffers;
 }
 
+/// Priorities alone may change nothing: who enters a zone first is not up to them.
+std::string why_unchanged(const hlc::record::RunFolder& recorded, const Choices& choices,
+                          bool is_changed) {
+  const bool are_priorities = std::ranges::any_of(
+      choices.set, [](const std::string& text) { return text.starts_with("priorities="); });
+  if (is_changed || !are_priorities || !recorded.scenario.conflicts) return "";
+  return "with right of way, who enters a conflict zone first does not depend on priorities\n";
+}
+
 void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choices,
                    const hlc::closed_loop::Experiment& experiment, const Rows& rows,
                    std::uint64_t steps) {
@@ -84,9 +93,12 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
   if (difference) {
     std::cout << "parts (run and fork) at "
               << hlc::result::text_of(*difference, recorded.description.step_s) << '\n';
-    const bool is_same_way =
-        hlc::result::trace_sha256(run_rows) == hlc::result::trace_sha256(fork_rows);
-    std::cout << (is_same_way ? "all cars drive as before\n\n" : "\n");
+    const auto apart = hlc::result::first_apart(run_rows, fork_rows);
+    std::cout << (apart ? "a car is elsewhere first at " +
+                              hlc::result::text_of(*apart, recorded.description.step_s)
+                        : "all cars drive as before")
+              << '\n'
+              << why_unchanged(recorded, choices, apart.has_value()) << '\n';
   } else {
     std::cout << "the fork is the same as the run: trace_sha256 "
               << hlc::result::trace_sha256(fork_rows) << "\n\n";

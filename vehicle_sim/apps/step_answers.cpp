@@ -57,7 +57,7 @@ bool is_in_force(const std::vector<const automaton::Maneuver*>& maneuvers,
 std::optional<ExplainedStep::Choice> choice_of(const Controller& controller) {
   const search::SearchOptions& options = controller.options().search;
   if (!search::is_admissible(options.cost_to_go)) return {};
-  const search::HorizonProblem& problem = controller.problems().back();
+  const search::HorizonProblem& problem = controller.problems().back().problem;
   const controller::PreparedSubgraph& on = controller.prepared_subgraph();
   const search::SearchResult result =
       search::make_search_engine(*on.subgraph, *on.reachable, options, on.tables)->search(problem);
@@ -99,7 +99,7 @@ class Limits {
   /// On the other subgraph; adds nothing if it is that in force, or no plan can begin on it.
   void add_on(std::string name, const controller::PreparedSubgraph& on,
               std::vector<ExplainedStep::Limit>& limits) const {
-    const TrimId from = controller_.problems().back().start_trim;
+    const TrimId from = controller_.problems().back().problem.start_trim;
     if (on.subgraph == controller_.prepared_subgraph().subgraph ||
         on.subgraph->distance_to_standstill(from) > controller_.options().horizon_steps) {
       return;

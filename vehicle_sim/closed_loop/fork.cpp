@@ -147,7 +147,12 @@ class ChangeText {
     std::vector<std::string> names;
     for (const road::DrivableRoute& one : scenario_.routes) names.push_back(one.name);
     if (std::ranges::count(names, name) > 0) return result;
-    refuse(fmt::format("a route of the scenario: {}", fmt::join(names, ", ")));
+    const std::uint32_t own = scenario::vehicle_of(scenario_, result.vehicle).route_number;
+    const auto now = std::ranges::find(scenario_.routes, own, &road::DrivableRoute::number);
+    refuse(fmt::format("a route of the scenario: {}{}", fmt::join(names, ", "),
+                       now == scenario_.routes.end()
+                           ? ""
+                           : fmt::format("; that of vehicle {} is {}", id, now->name)));
   }
 
   const std::string& text_;

@@ -126,7 +126,10 @@ class Page {
     on("follow", "change", () => this.set_follow(this.follow));
     on("speed", "change", ({ target }) => (this.player.speed = Number(target.value)));
     on("scrub", "input", seek);
-    on("time", "change", seek);
+    on("time", "change", (event) => {
+      seek(event);
+      event.target.blur(); // keys play again, and the field shows where that led
+    });
     on("layers", "change", () => this.show());
     const keys = {};
     for (const [key, action, button] of this.actions()) {
@@ -215,6 +218,7 @@ export function show_run(run) {
   root.dataset.theme = kDark.matches ? "dark" : "light";
   document.title = by_id("title").textContent = `Run of ${run.about.scenario}`;
   by_id("about").textContent = run.about.about;
+  by_id("keys").textContent = run.about.words.keys;
   report(run.about.fault);
   return (window.page = new Page(run));
 }

@@ -75,6 +75,7 @@ export class Run {
       route: line_of(vehicle.route, this.unit),
       steps: [], // report of step k at [k], if any; without a label: no plan
       whys: {}, // explanation of step k at [k]
+      searches: {}, // page of what was searched in it
       drives: [], // stretches without a gap
     }));
   }
@@ -107,7 +108,14 @@ export class Run {
   }
 
   take_why({ vehicle, steps }) {
-    for (const [k, text] of steps) this.vehicle(vehicle).whys[k] = text;
+    const { whys } = this.vehicle(vehicle);
+    for (const [first, last, text] of steps) {
+      for (let k = first; k <= last; ++k) whys[k] = text;
+    }
+  }
+
+  take_search({ vehicle, step, page }) {
+    this.vehicle(vehicle).searches[step] = page;
   }
 
   take_drive(message) {

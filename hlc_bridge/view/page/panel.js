@@ -1,7 +1,7 @@
 // The text beside the map: cars, report, log. Text of the run is never markup: tags show as they are.
 
 import { clamp } from "./model.js";
-import { kTerms, milliseconds, report_rows, seconds, state_of } from "./words.js";
+import { milliseconds, report_rows, seconds, state_of } from "./words.js";
 
 export function element(tag, text = "", attributes = {}) {
   const made = document.createElement(tag);
@@ -75,11 +75,11 @@ export class Report {
     this.shown = now;
     this.list.replaceChildren();
     for (const [name, content] of rows) {
-      const is_text = typeof content === "string";
-      const parts = is_text ? [content] : content.map((id) => this.car_button(id));
+      const parts = content.map?.((id) => this.car_button(id)) ||
+        [content.k === undefined ? content : this.search_button(vehicle.searches[content.k])];
       const value = element("dd", "", { "data-row": name });
       value.append(...(parts.length ? parts : ["none"]));
-      const title = kTerms[name];
+      const title = this.run.about.words.terms[name];
       this.list.append(element("dt", name, title && { title }), value);
     }
   }
@@ -90,6 +90,20 @@ export class Report {
     const button = element("button", "", { class: "car" });
     button.append(badge(vehicle), ` car ${id}`);
     button.addEventListener("click", () => this.select(id));
+    return button;
+  }
+
+  /// Shows a page of its own over this one, without scripts.
+  search_button(srcdoc) {
+    const button = element("button", "show the search tree");
+    button.addEventListener("click", () => {
+      const [dialog, close] = [element("dialog"), element("button", "close")];
+      close.addEventListener("click", () => dialog.close());
+      dialog.addEventListener("close", () => dialog.remove());
+      dialog.append(close, element("iframe", "", { srcdoc, sandbox: "" }));
+      document.body.append(dialog);
+      dialog.showModal();
+    });
     return button;
   }
 }

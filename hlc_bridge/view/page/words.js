@@ -9,20 +9,10 @@ export function seconds(value, digits = 1) {
 }
 
 /// Why the car kept its plan, after "keeps its plan: ".
-function reason_words({ reason, blocked_by }) {
-  const by = blocked_by.length ? ids_text(blocked_by) : "";
-  const words = {
-    infeasible: `no other plan is possible${by && `, because of ${by}`}`,
-    budget: "the search stopped at its budget before it found one",
-    missing: `no message from or to ${by}`,
-    conflict: `conflict with ${by || "another car"}`,
-    neighbour: `${by}, planned with it, fell back`,
-    deviation: "it is too far off the plan, or not seen",
-    late: "a deadline of the step had passed",
-    undrivable: "the new one is beyond what it can follow",
-    off_route: "it cannot get onto its route from here",
-  };
-  return words[reason] || reason;
+function reason_words(run, { reason, blocked_by }) {
+  const { reasons } = run.about.words;
+  const words = reasons[blocked_by.length ? reason : `${reason} alone`] || reasons[reason];
+  return words.replace("CARS", ids_text(blocked_by));
 }
 
 /// {kind, words, short}: kind is one of kKinds, short a label for the map, empty: none.
@@ -39,7 +29,7 @@ export function state_of(run, vehicle, t) {
   const since_s = report.waits_since * run.step_s;
   const wait = wait_words(report, since_s, t);
   if (report.status === "fallback") {
-    const words = `keeps its plan: ${reason_words(report)}${wait ? `; ${wait}` : ""}`;
+    const words = `keeps its plan: ${reason_words(run, report)}${wait ? `; ${wait}` : ""}`;
     return state("fallback", words, `kept plan: ${report.reason.replace("_", " ")}`);
   }
   if (wait) {
@@ -75,25 +65,6 @@ export const kKinds = {
   unknown: "no driven path recorded",
   silent: "no report",
   late: "deadline missed (lowest strip)", // no state, but a mark of the strip of planning times
-};
-
-/// What terms of the report mean.
-export const kTerms = {
-  state: "waits: without the others it would drive; stuck: it waits for long",
-  status: "planned: a new plan; fallback: the former plan stays in force, and why",
-  "coupled with": "cars that may come close soon: they plan one after the other",
-  maneuver: "driven in this step; named after its criterion, or trim: constant speed and steering",
-  subgraph: "the trims and maneuvers that it may use",
-  plan: "maneuvers from this step on, until it stands",
-  "zones held": "where routes cross or merge: a car holds parts of them",
-  level: "0 plans first, the others wait for the plans of lower levels",
-};
-
-const kQualities = {
-  none: "no plan was found",
-  optimal: "optimal",
-  budget: "the search stopped early",
-  unproven: "not proven optimal",
 };
 
 export function milliseconds(value_s) {
@@ -141,7 +112,7 @@ export function report_rows(run, vehicle, t) {
   }
   if (!report) return rows;
   const { k, status, reason, quality, gap_m2, level } = report;
-  const why = vehicle.whys[k] || run.about.why;
+  const why = vehicle.whys[k] || run.about.why.replace("N", vehicle.id).replace("K", k);
   const gap = gap_m2 > 0 ? `, at most ${gap_m2.toFixed(4)} m2 above the optimum` : "";
   return [
     ...rows,
@@ -151,10 +122,11 @@ export function report_rows(run, vehicle, t) {
     ["missing", report.missing],
     ["maneuver", report.label || "no plan yet"],
     ...(why ? [["why", why]] : []),
+    ...(vehicle.searches[k] ? [["searched", { k }]] : []),
     ["plan", report.plan_labels],
     ...zone_rows(run, vehicle, k),
     ["subgraph", report.subgraph],
-    ["plan found", kQualities[quality] + gap],
+    ["plan found", run.about.words.qualities[quality] + gap],
     ["cost", quality === "none" ? "none" : `${report.cost_m2.toFixed(4)} m2`],
     ["planning time", planning_words(run, report)],
     ["vertices", `${report.generated} generated, ${report.expanded} expanded`],

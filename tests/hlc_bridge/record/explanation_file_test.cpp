@@ -45,13 +45,38 @@ std::vector<Explanation> explanations() {
 
 TEST(ExplanationFile, TheFirstStepOfEveryHindranceIsToBeExplained) {
   EXPECT_THAT(result::steps_to_explain(rows()),
-              ElementsAre(Explanation{1, VehicleId{2}, ""}, Explanation{2, VehicleId{2}, ""},
-                          Explanation{2, VehicleId{3}, ""}));
+              ElementsAre(Explanation{1, 2, VehicleId{2}, ""}, Explanation{2, 2, VehicleId{2}, ""},
+                          Explanation{2, 3, VehicleId{3}, ""}));
   std::vector<result::StepRecord> before_start = rows();
   for (auto& one : before_start) {
     one.record.report.status = coordination::StepStatus::kStandby;
   }
   EXPECT_THAT(result::steps_to_explain(before_start), IsEmpty());
+}
+
+/// One vehicle with new plans, at these speeds at the begin of its steps.
+std::vector<result::StepRecord> rows_at(const std::vector<double>& speeds_mps) {
+  std::vector<result::StepRecord> rows;
+  for (const double speed_mps : speeds_mps) {
+    rows.push_back(row(rows.size(), 2));
+    rows.back().driven_speed_mps = speed_mps;
+  }
+  return rows;
+}
+
+TEST(ExplanationFile, TheStepsWhosePlansBrakeToAStandAreToBeExplained) {
+  // Decided in steps 2 and 3, driven from step 3 on; stands from step 5 to step 6.
+  EXPECT_THAT(
+      result::steps_to_explain(rows_at({0.8, 0.8, 0.805, 0.8, 0.4, 0.001, 0.0, 0.2, 0.8, 0.8})),
+      ElementsAre(Explanation{2, 2, VehicleId{2}, ""}, Explanation{3, 6, VehicleId{2}, ""}));
+  EXPECT_THAT(result::steps_to_explain(rows_at({0.0, 0.0, 0.4, 0.8, 0.4, 0.3})), IsEmpty())
+      << "it stands before it drives, and only slows down later";
+  EXPECT_THAT(result::steps_to_explain(rows_at({0.0, 0.03, 0.02, 0.03, 0.02})), IsEmpty())
+      << "it never left";
+  std::vector<result::StepRecord> waiting = rows_at({0.8, 0.8, 0.4, 0.0, 0.0});
+  waiting[3].record.report.waiting.vehicles = {VehicleId{3}};
+  EXPECT_THAT(result::steps_to_explain(waiting), ElementsAre(Explanation{3, 3, VehicleId{2}, ""}))
+      << "once for one stand";
 }
 
 TEST(ExplanationFile, TextsOfSeveralLinesReadBack) {

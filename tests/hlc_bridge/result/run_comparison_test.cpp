@@ -93,11 +93,28 @@ TEST(RunComparison, NamesStepTimeAndVehicleOfTheFirstDifference) {
   other.incomplete = {"reports.csv ends early"};
   const RunComparison comparison = compare(driven_run(2), std::move(other), {"seed: 1 and 2"});
   const std::vector<std::string> lines = comparison_lines(comparison);
-  ASSERT_EQ(lines.size(), 5U);
+  ASSERT_EQ(lines.size(), 6U);
   EXPECT_EQ(lines[2], "started differently: seed: 1 and 2");
   EXPECT_EQ(lines[3], "run: reports.csv ends early");
-  EXPECT_EQ(lines[4],
+  EXPECT_EQ(lines[4], "all cars drive the same way");
+  EXPECT_EQ(lines[5],
             "the runs differ at step 1 (1.0 s), vehicle 1: messages: computation level 0 and 1");
+}
+
+TEST(RunComparison, NamesWhereACarIsElsewhereFirst) {
+  ComparedRun one = driven_run(2);
+  for (StepRecord& row : one.rows) row.driven = Pose{1.0, 2.0, 0.0};
+  ComparedRun other = one;
+  other.rows[1].record.report.level = 1;  // vehicle 1, step 1
+  StepRecord& last = other.rows.back();
+  last.driven->y_m += 0.002;
+  const RunComparison comparison = compare(one, other, {});
+  ASSERT_TRUE(comparison.apart);
+  EXPECT_EQ(comparison.apart->step, last.step);
+  EXPECT_EQ(comparison.apart->vehicle, last.record.report.vehicle);
+  EXPECT_THAT(comparison_lines(comparison),
+              testing::Contains(testing::AllOf(testing::StartsWith("a car is elsewhere first at"),
+                                               HasSubstr("2 mm apart"))));
 }
 
 TEST(RunComparison, VehiclesWithOtherNumbersAndThoseOfOneRunHaveTheirOwnRows) {

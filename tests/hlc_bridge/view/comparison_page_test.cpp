@@ -73,7 +73,7 @@ TEST(ComparisonPage, DrawsLanesAndAPathPerCarAndRun) {
   EXPECT_EQ(occurrences(page, "<path class=\"a\" style=\"stroke:var(--car-"), 2U);
   EXPECT_EQ(occurrences(page, "<path class=\"b\" style=\"stroke:var(--car-"), 2U);
   EXPECT_EQ(occurrences(page, "<circle class=\"mark\""), 3U) << "both runs and the legend";
-  EXPECT_THAT(page, HasSubstr("first difference, vehicle 2</span>"));
+  EXPECT_THAT(page, HasSubstr("first difference, vehicle 2, step 3</span>"));
 }
 
 TEST(ComparisonPage, OfEqualRunsHasNoMark) {

@@ -86,7 +86,7 @@ TEST(LabMap, ShowsThePlanInForceAndTheReferenceOfTheSearch) {
   const std::vector<Visualization> drawings = car.drawings(report);
   const auto lines = lines_in(drawings);
   ASSERT_EQ(lines.size(), 2U);
-  EXPECT_EQ(lines[0]->points_m, car.controller().problems().back().reference_m);
+  EXPECT_EQ(lines[0]->points_m, car.controller().problems().back().problem.reference_m);
   const coordination::Plan& plan = car.controller().plan_in_force();
   EXPECT_EQ(lines[1]->points_m.front(), plan.pose_at(report.step).position_m());
   EXPECT_EQ(lines[1]->points_m.back(), plan.pose_at(plan.end()).position_m());

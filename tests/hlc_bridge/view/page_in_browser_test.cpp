@@ -149,17 +149,82 @@ TEST_F(PageInBrowser, ARunWithoutRightOfWayOffersNoZones) {
 
 TEST_F(PageInBrowser, AReportOfLogicalTimeHasItsExplanationOrTheCommandThatFindsIt) {
   FinishedRun run = sample_run(2, 20);
-  run.can_be_explained = true;
+  run.how_explained = "explain RUN --vehicle N --step K";
   const json result = result_of(run, R"(
-    page.run.take({ kind: "why", vehicle: 2, steps: [[5, "did\n<b>stood</b>"]] });
+    page.run.take({ kind: "why", vehicle: 2, steps: [[5, 6, "did\n<b>stood</b>"]] });
     page.select(2);
-    at(1);
-    result.explained = row("why");
     at(1.2);
+    result.explained = row("why");
+    at(1.4);
     result.other = row("why");
   )");
   EXPECT_EQ(result.at("explained"), "did\n<b>stood</b>");
-  EXPECT_THAT(result.at("other"), HasSubstr("explain RUN --vehicle N --step K"));
+  EXPECT_EQ(result.at("other"), "explain RUN --vehicle 2 --step 7");
+}
+
+TEST_F(PageInBrowser, WhatWasSearchedInAStepIsShownOverThePage) {
+  FinishedRun run = sample_run(2, 20);
+  run.searches = {{.step = 5, .vehicle = {2}, .html = "<p>tree</p><script>top.x = 1</script>"}};
+  const json result = result_of(run, R"(
+    page.select(2);
+    at(0.8);
+    result.is_offered = Boolean(document.querySelector("[data-row=searched]"));
+    at(1);
+    document.querySelector("[data-row=searched] button").click();
+    const dialog = document.querySelector("dialog");
+    result.is_open = dialog.open;
+    const frame = dialog.querySelector("iframe");
+    result.page = frame.srcdoc;
+    result.sandbox = frame.getAttribute("sandbox");
+    const closed = new Promise((done) => dialog.addEventListener("close", done));
+    dialog.querySelector("button").click();
+    await closed;
+    result.is_gone = !document.querySelector("dialog");
+  )");
+  EXPECT_EQ(result.at("is_offered"), false);
+  EXPECT_EQ(result.at("is_open"), true);
+  EXPECT_EQ(result.at("page"), run.searches.front().html);
+  EXPECT_EQ(result.at("sandbox"), "") << "scripts are off";
+  EXPECT_EQ(result.at("is_gone"), true);
+}
+
+TEST_F(PageInBrowser, AnObstacleThatAForkAddedIsDrawnFromItsStepOn) {
+  FinishedRun run = sample_run(2, 20);
+  run.fork = "a fork: from step 5 on obstacle=1,2,0.4,0.3";
+  run.obstacles = {{.from = 5, .pose = {1.0, 2.0, 0.0}, .length_m = 0.4, .width_m = 0.3}};
+  const json result = result_of(run, R"(
+    const colours = () => {
+      const drawn = [];
+      const { fill } = page.map;
+      page.map.fill = (path, name) => drawn.push(name);
+      page.map.draw(page.shown);
+      page.map.fill = fill;
+      return drawn.includes("alarm");
+    };
+    at(0.9);
+    result.before = colours();
+    at(1);
+    result.after = colours();
+    result.about = by_id("about").textContent;
+  )");
+  EXPECT_EQ(result.at("before"), false);
+  EXPECT_EQ(result.at("after"), true);
+  EXPECT_THAT(result.at("about"), HasSubstr(run.fork));
+}
+
+TEST_F(PageInBrowser, ATimeThatCannotBeIsCorrectedAndTheKeysPlayOn) {
+  const json result = result_of(sample_run(2, 20), R"(
+    const field = by_id("time");
+    field.focus();
+    field.value = "99";
+    field.dispatchEvent(new Event("change"));
+    page.draw();
+    result.shown = Number(field.value);
+    result.end = page.run.end_s;
+    result.is_left = document.activeElement !== field;
+  )");
+  EXPECT_EQ(result.at("shown"), result.at("end"));
+  EXPECT_EQ(result.at("is_left"), true);
 }
 
 TEST_F(PageInBrowser, TheLastMomentShowsThePlannedPoseToo) {

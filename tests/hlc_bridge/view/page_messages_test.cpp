@@ -123,15 +123,17 @@ TEST(PageMessages, ACarThatIsNotInTheRunIsLeftOut) {
 TEST(PageMessages, TheExplanationsOfAVehicleAreOneMessage) {
   FinishedRun run = sample_run(3, 20);
   EXPECT_TRUE(of_kind(run, "why").empty());
-  run.explanations = {{.step = kWaitsFrom, .vehicle = VehicleId{2}, .text = "waits\nfor <1>"},
-                      {.step = kFallsBackIn, .vehicle = VehicleId{2}, .text = "keeps"},
-                      {.step = 9, .vehicle = VehicleId{3}, .text = "misses"}};
+  run.explanations = {
+      {.step = kWaitsFrom, .last = 7, .vehicle = VehicleId{2}, .text = "waits\nfor <1>"},
+      {.step = kFallsBackIn, .last = 8, .vehicle = VehicleId{2}, .text = "keeps"},
+      {.step = 9, .last = 9, .vehicle = VehicleId{3}, .text = "misses"}};
   const std::vector<json> whys = of_kind(run, "why");
   ASSERT_EQ(whys.size(), 2U);
-  EXPECT_EQ(whys[0], json({{"kind", "why"},
-                           {"vehicle", 2},
-                           {"steps", {{kWaitsFrom, "waits\nfor <1>"}, {kFallsBackIn, "keeps"}}}}));
-  EXPECT_EQ(whys[1].at("steps"), json::array({json::array({9, "misses"})}));
+  EXPECT_EQ(whys[0],
+            json({{"kind", "why"},
+                  {"vehicle", 2},
+                  {"steps", {{kWaitsFrom, 7, "waits\nfor <1>"}, {kFallsBackIn, 8, "keeps"}}}}));
+  EXPECT_EQ(whys[1].at("steps"), json::array({json::array({9, 9, "misses"})}));
 }
 
 TEST(PageMessages, ARunWithoutStepsHasAllKindsThatAreNotOfSteps) {

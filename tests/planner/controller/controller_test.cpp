@@ -63,7 +63,7 @@ TEST(Controller, TheProblemsContouringIsTheNormalOfThePathTimesTheRootOfTheWeigh
   static_cast<void>(one.stand_by(at(100, {seen(1, 0.0, 0.0)})));
   static_cast<void>(step(one, at(101, {following(one, 101)})));
   ASSERT_EQ(one.problems().size(), 1U);
-  const search::HorizonProblem& problem = one.problems().front();
+  const search::HorizonProblem& problem = one.problems().front().problem;
   ASSERT_EQ(problem.contouring.size(), problem.horizon_steps());
   for (const Point& c : problem.contouring) EXPECT_LT((c - Point(0.0, 3.0)).norm(), 1e-12);
 }
@@ -78,7 +78,7 @@ TEST(Controller, TheRestOfThePlanInForceIsTheIncumbent) {
     }
     static_cast<void>(step(*one, at(k, {following(*one, k)})));
     ASSERT_EQ(one->problems().size(), 1U);
-    const search::HorizonProblem& problem = one->problems().front();
+    const search::HorizonProblem& problem = one->problems().front().problem;
     EXPECT_EQ(problem.incumbent, rest) << k;
     EXPECT_EQ(problem.incumbent.front()->from, problem.start_trim);
     EXPECT_EQ(problem.incumbent.back()->to, one->subgraph().standstill());
@@ -93,7 +93,7 @@ TEST(Controller, ThereIsNoIncumbentWhereThePlanIsMovedOntoTheVehicle) {
   beside.pose.y_m += 0.008;  // within the margin, farther than half of it
   static_cast<void>(step(*one, at(102, {beside})));
   ASSERT_FALSE(one->problems().empty());
-  EXPECT_TRUE(one->problems().front().incumbent.empty());
+  EXPECT_TRUE(one->problems().front().problem.incumbent.empty());
 }
 
 // Nor after a switch, when the vehicle may drive with a trim that is disabled now.
@@ -146,7 +146,7 @@ TEST(Controller, WithoutAnIncumbentTheSearchKnowsNoPlan) {
   static_cast<void>(one.stand_by(at(100, {seen(1, 0.0, 0.0)})));
   static_cast<void>(step(one, at(101, {following(one, 101)})));
   ASSERT_EQ(one.problems().size(), 1U);
-  EXPECT_TRUE(one.problems().front().incumbent.empty());
+  EXPECT_TRUE(one.problems().front().problem.incumbent.empty());
 }
 
 TEST(Controller, ReportsHowGoodThePlanIs) {
@@ -206,7 +206,7 @@ TEST_F(TwoCars, ASilentPredecessorIsMissingNotAbsent) {
   const coordination::Prediction prediction =
       second_->plan({});  // its predecessor's plan not received
   ASSERT_FALSE(second_->problems().empty());
-  for (const std::vector<ConvexPolygon>& areas : second_->problems().back().obstacles_m) {
+  for (const std::vector<ConvexPolygon>& areas : second_->problems().back().problem.obstacles_m) {
     EXPECT_THAT(areas, testing::Contains(t1.reachable_area_m));
   }
   EXPECT_FALSE(prediction.is_new &&
@@ -224,7 +224,7 @@ TEST_F(TwoCars, AVehicleThatSaysNothingAtAllIsListedAndKeptAwayFrom) {
     const Point anywhere =
         states_[0].pose.position_m() + way_m * Point(std::cos(2.0), std::sin(2.0));
     EXPECT_TRUE(
-        std::ranges::any_of(second_->problems().back().obstacles_m[j - 1],
+        std::ranges::any_of(second_->problems().back().problem.obstacles_m[j - 1],
                             [&](const ConvexPolygon& area) { return contains(area, anywhere); }))
         << j;
   }

@@ -86,7 +86,7 @@ Course drive(const Scenario& scenario) {
         continue;
       }
       if (reports[i].coupled.empty()) continue;
-      search::HorizonProblem problem = rollout.controllers()[i]->problems().back();
+      search::HorizonProblem problem = rollout.controllers()[i]->problems().back().problem;
       problem.obstacles_m.clear();
       is_changed |= i > 0 && alone->search(problem).cost < reports[i].cost_m2 - 1e-9;
     }
@@ -203,7 +203,8 @@ TEST(Subgraphs, BAndCGiveTheSamePlansToWithinTheDifferenceOfTheirManeuvers) {
   std::size_t same = 0;
   for (std::size_t step = 0; step < b.steps; ++step) {
     static_cast<void>(rollout.step());
-    const search::HorizonProblem& problem = rollout.controllers().front()->problems().back();
+    const search::HorizonProblem& problem =
+        rollout.controllers().front()->problems().back().problem;
     const search::SearchResult of_b = engine_b->search(problem);
     const search::SearchResult of_c = engine_c->search(problem);
     ASSERT_EQ(of_b.status, search::SearchStatus::kOptimal);

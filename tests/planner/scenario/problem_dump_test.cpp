@@ -5,13 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
 #include <ostream>
+#include <random>
 #include <set>
 
+#include "planner/automaton/requested_subgraph.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/problem_file.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/num_seeds.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc::scenario::problem_dump_test {
@@ -56,8 +60,8 @@ class ProblemDumpTest : public testing::TestWithParam<Drive> {
 
 TEST_P(ProblemDumpTest, EveryDecisionIsSolvedAgainAlike) {
   const Scenario scenario = read_scenario(GetParam().choices);
-  const ProblemDump dump(folder_ / "made" / "on_the_way", scenario.automaton_file,
-                         scenario.subgraph->spec());
+  ProblemDump dump(folder_ / "made" / "on_the_way", scenario.automaton_file,
+                   scenario.subgraph->spec());
   std::vector<std::unique_ptr<controller::Controller>> controllers;
   std::vector<Pose> starts;
   for (const ScenarioVehicle& vehicle : scenario.vehicles) {
@@ -149,20 +153,64 @@ INSTANTIATE_TEST_SUITE_P(
         Drive{"Circle", {.file = kFolder + "circle.yaml", .steps = 40, .cars = 10}, -1.0}),
     [](const auto& drive) { return drive.param.name; });
 
-// A file of it could not be read: the automaton's file has no such subgraph.
-TEST(ProblemDumpErrors, AProblemOnASubgraphThatWasAskedForIsNotWritten) {
-  const Scenario scenario = read_scenario(
-      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml"});
-  const test::TemporaryFolder temporary;
-  const fs::path folder = temporary / "problems";
-  const ProblemDump dump(folder, scenario.automaton_file, scenario.subgraph->spec());
-  rollout::Rollout rollout = rollout::make_rollout(scenario);
-  static_cast<void>(rollout.step());
-  controller::Controller& controller = *rollout.controllers().front();
-  EXPECT_NO_THROW(dump.write(controller));
-  controller.switch_to(automaton::requested_subgraph(*scenario.subgraph, {.max_speed_mps = 0.6},
-                                                     scenario.horizon_steps));
-  EXPECT_THROW(dump.write(controller), std::runtime_error);
+/// The base's automaton with its J2 maneuvers also as those of weights, as if designed for them.
+std::shared_ptr<const automaton::UniversalAutomaton> with_weights(
+    const automaton::Subgraph& base, const std::vector<CriterionWeight>& weights) {
+  auto larger = std::make_shared<automaton::UniversalAutomaton>(base.automaton());
+  for (automaton::Maneuver maneuver : base.automaton().maneuvers) {
+    if (maneuver.label != "J2") continue;
+    maneuver.label = automaton::label_of(weights);
+    larger->maneuvers.push_back(std::move(maneuver));
+  }
+  return larger;
+}
+
+std::shared_ptr<const automaton::Subgraph> random_subgraph(const Scenario& scenario,
+                                                           std::mt19937_64& random) {
+  const std::vector<CriterionWeight> weights{{"J1", 0.3}, {"J2", 0.7}};
+  const std::vector<SubgraphRequest> requests{{},
+                                              {.labels = {"J1"}},
+                                              {.labels = {"J3"}, .max_speed_mps = 0.6},
+                                              {.max_speed_mps = 0.4, .disable_trims = {{2}}},
+                                              {.weights = weights}};
+  const SubgraphRequest& request = requests[random() % requests.size()];
+  return automaton::requested_subgraph(
+      *scenario.subgraph, request, scenario.horizon_steps,
+      request.weights.empty() ? nullptr : with_weights(*scenario.subgraph, weights));
+}
+
+TEST(ProblemDump, EveryDecisionAfterRequestsIsSolvedAgainAlikeByItsFilesAlone) {
+  const Scenario scenario = read_scenario({.file = kFolder + "on_request.yaml"});
+  std::size_t num_after_requests = 0;
+  for (std::uint64_t seed = 0; seed < test::num_costly_seeds(3); ++seed) {
+    std::mt19937_64 random(seed);
+    const test::TemporaryFolder folder;
+    ProblemDump dump(folder.path(), scenario.automaton_file, scenario.subgraph->spec());
+    rollout::Rollout rollout = rollout::make_rollout(scenario);
+    for (std::size_t step = 0; step < 40; ++step) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", step " << step);
+      controller::Controller& controller = *rollout.controllers().front();
+      if (step > 4 && random() % 3 == 0) controller.switch_to(random_subgraph(scenario, random));
+      const coordination::Report report = rollout.step().front();
+      dump.write(controller);
+      std::uint64_t generated = 0;
+      std::uint64_t expanded = 0;
+      for (std::size_t number = 1; number <= controller.problems().size(); ++number) {
+        const ProblemFile file = read_problem_file(
+            folder / fmt::format("vehicle_{}_step_{:010}_search_{}.json", report.vehicle.value,
+                                 report.step.value, number));
+        const automaton::ReachableSets reachable(*file.subgraph, file.problem.horizon_steps());
+        const search::SearchResult again = solved(file, reachable, file.search.engine);
+        generated += again.generated;
+        expanded += again.expanded;
+        const fs::path& of = file.automaton_file.parent_path();
+        num_after_requests += of == folder.path() ? 1U : 0U;
+      }
+      EXPECT_EQ(generated, report.generated);
+      EXPECT_EQ(expanded, report.expanded);
+    }
+  }
+  EXPECT_GT(num_after_requests, 10U);
 }
 
 TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
@@ -170,9 +218,9 @@ TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
     const ProblemDump dump("/proc/nowhere", "paper.yaml", {});
     FAIL() << "made";
   } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(
-        std::string(error.what()),
-        "--dump-problems = /proc/nowhere, must be a folder that can be created and written to");
+    EXPECT_EQ(std::string(error.what()),
+              "folder of the planning problems = /proc/nowhere, must be a folder that can be "
+              "created and written to");
   }
 }
 

@@ -128,7 +128,7 @@ TEST_F(Explain, RefusesInOneLine) {
         Bad{"--vehicle 2", "--step"}, Bad{"--all --step 2", "--all"},
         Bad{"--vehicle 0 --step 1", "--vehicle"},
         Bad{"--vehicle 2 --step 1 --colour red", "--colour"},
-        Bad{"--vehicle 2 --step 1 --problems /proc/no", "--dump-problems"}}) {
+        Bad{"--vehicle 2 --step 1 --problems /proc/no", "folder of the planning problems"}}) {
     const auto [exit_code, output] = explain(flags);
     EXPECT_EQ(exit_code, 2) << flags << '\n' << output;
     EXPECT_THAT(output, HasSubstr(named));
