@@ -16,9 +16,11 @@ struct Outcome {
   std::string output;  ///< of both streams
 };
 
-/// Runs a program of this build to its end. @param command  name and flags, as for a shell
-inline Outcome run_program(const std::string& command) {
-  const std::string line = test::build_folder() + "/bin/" + command + " 2>&1";
+/// Runs a program of this build to its end.
+/// @param command  name and flags, as for a shell
+/// @param before   commands of the shell before it: "ulimit -f 32; "
+inline Outcome run_program(const std::string& command, const std::string& before = "") {
+  const std::string line = before + test::build_folder() + "/bin/" + command + " 2>&1";
   FILE* pipe = popen(line.c_str(), "r");
   EXPECT_NE(pipe, nullptr);
   Outcome outcome;

@@ -159,6 +159,30 @@ TEST_F(ChoicesOfRun, OfAFileThatIsNotCopiedYetLeadToTheFile) {
   EXPECT_EQ(choices(nothing()).scenario.file, "/a/scenarios/circle.yaml");
 }
 
+TEST(Configuration, ForksAreReadBackAndNameTheirObstaclesAndTheVehiclesTheyTakeOut) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "configuration");
+  const std::vector<KeptFork> written{
+      {.from = 4, .set = {"without=12", "obstacle=1.5,-2,0.4,0.3,0.25"}},
+      {.from = 9, .set = {"obstacle=3,4,1,2", "speed=1:0.5"}}};
+  write_file(forks_file(folder.path()), forks_yaml(written));
+  const std::vector<KeptFork> forks = kept_forks(folder.path());
+  EXPECT_EQ(forks_text(forks),
+            "a fork: from step 4 on without=12, obstacle=1.5,-2,0.4,0.3,0.25; from step 9 on "
+            "obstacle=3,4,1,2, speed=1:0.5");
+  EXPECT_TRUE(takes_out(forks, 12));
+  EXPECT_FALSE(takes_out(forks, 1));
+  const std::vector<result::AddedObstacle> obstacles = added_obstacles(forks);
+  ASSERT_EQ(obstacles.size(), 2U);
+  EXPECT_EQ(obstacles[0].from, 4U);
+  EXPECT_EQ(obstacles[0].pose, (Pose{1.5, -2.0, 0.25}));
+  EXPECT_EQ(obstacles[0].length_m, 0.4);
+  EXPECT_EQ(obstacles[0].width_m, 0.3);
+  EXPECT_EQ(obstacles[1].pose, (Pose{3.0, 4.0, 0.0}));
+  EXPECT_EQ(obstacles[1].width_m, 2.0);
+  EXPECT_EQ(forks_text({}), "");
+}
+
 TEST(Configuration, FolderWithoutFlagsIsNamed) {
   const test::TemporaryFolder folder;
   EXPECT_THAT([&] { static_cast<void>(kept_choices(folder.path())); },

@@ -89,6 +89,19 @@ TEST_F(Explain, TheProblemsOfTheStepCanBeSolvedAgainAndHaveTheSameRunnerUp) {
               HasSubstr(fmt::format(", {:+.3g} m^2\n", second["extra"].get<double>())));
 }
 
+TEST_F(Explain, TreeKeepsWhatWasSearchedInTheFolderAndInThePage) {
+  const test::Outcome outcome = explain("--vehicle 1 --step 10 --tree");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const fs::path page = run() / "searches" / "vehicle_1_step_10.html";
+  EXPECT_THAT(outcome.output, HasSubstr("what was searched: " + page.string()));
+  EXPECT_THAT(read_file(page), HasSubstr("<h1>What was searched for one plan</h1>"));
+  EXPECT_THAT(read_file(run() / "run.html"), HasSubstr(R"("kind":"search")"));
+  fs::remove_all(page.parent_path());
+  const test::Outcome summarized = test::run_program("summarize --run " + run().string());
+  EXPECT_EQ(summarized.exit_code, 0) << summarized.output;
+  EXPECT_EQ(read_file(run() / "run.html").find(R"("kind":"search")"), std::string::npos);
+}
+
 TEST_F(Explain, AllWritesTheFirstStepOfEveryHindranceAndThePageWithThem) {
   const test::Outcome outcome = explain("--all");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -125,7 +138,7 @@ TEST_F(Explain, RefusesInOneLine) {
   };
   for (const auto& [flags, named] :
        {Bad{"--vehicle 12 --step 3", "1, 2, 3, 4, 5"}, Bad{"--vehicle 2 --step 12", "last is 11"},
-        Bad{"--vehicle 2", "--step"}, Bad{"--all --step 2", "--all"},
+        Bad{"--vehicle 2", "--step"}, Bad{"--all --step 2", "--all"}, Bad{"--all --tree", "--all"},
         Bad{"--vehicle 0 --step 1", "--vehicle"},
         Bad{"--vehicle 2 --step 1 --colour red", "--colour"},
         Bad{"--vehicle 2 --step 1 --problems /proc/no", "folder of the planning problems"}}) {

@@ -98,6 +98,31 @@ TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
                                          "route=3:green"));
 }
 
+TEST_F(Replay, AForkWithoutAVehicleIsAWholeRun) {
+  const auto [exit_code, output] = replay("--from 10 --set without=2");
+  ASSERT_EQ(exit_code, 0) << output;
+  EXPECT_THAT(record::read_run_folder(folder_.path() / "one_from_10").incomplete,
+              testing::IsEmpty());
+}
+
+TEST_F(Replay, AForkOfARunThatMayOnlyBeReadCanBeChanged) {
+  const fs::path flags = run() / "configuration" / "flags.yaml";
+  fs::permissions(flags, fs::perms::owner_read);
+  const auto [exit_code, output] = replay("--from 10 --set priorities=3");
+  ASSERT_EQ(exit_code, 0) << output;
+  const fs::path copy = folder_.path() / "one_from_10" / "configuration" / "flags.yaml";
+  EXPECT_NE(fs::status(copy).permissions() & fs::perms::owner_write, fs::perms::none);
+}
+
+// Its map is larger than the largest file that may be written: 60 blocks of 512 bytes.
+TEST_F(Replay, AForkThatCannotBeWrittenLeavesNothing) {
+  const auto [exit_code, output] = test::run_program(
+      "replay " + run().string() + " --from 10 --set priorities=3", "trap '' XFSZ; ulimit -f 60; ");
+  EXPECT_EQ(exit_code, 2) << output;
+  EXPECT_THAT(output, HasSubstr("one_from_10/"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "one_from_10"));
+}
+
 TEST_F(Replay, OfARunThatEndedEarlyComparesWhatIsRecorded) {
   const std::string reports = read_file(run() / "reports.csv");
   std::ofstream(run() / "reports.csv") << reports.substr(0, reports.find("\n20,") + 1);
