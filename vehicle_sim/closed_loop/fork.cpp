@@ -147,16 +147,7 @@ class ChangeText {
     std::vector<std::string> names;
     for (const road::DrivableRoute& one : scenario_.routes) names.push_back(one.name);
     if (std::ranges::count(names, name) > 0) return result;
-    refuse(fmt::format("a route of the scenario: {}{}", fmt::join(names, ", "),
-                       now_on(result.vehicle)));
-  }
-
-  /// The name of the vehicle's route where it is known: a vehicle can be named otherwise.
-  [[nodiscard]] std::string now_on(VehicleId vehicle) const {
-    const std::uint32_t own = scenario::vehicle_of(scenario_, vehicle).route_number;
-    const auto now = std::ranges::find(scenario_.routes, own, &road::DrivableRoute::number);
-    if (!scenario_.conflicts || now == scenario_.routes.end()) return "";
-    return fmt::format("; that of vehicle {} is {}", vehicle.value, now->name);
+    refuse(fmt::format("a route of the scenario: {}", fmt::join(names, ", ")));
   }
 
   const std::string& text_;

@@ -179,25 +179,6 @@ TEST(Fork, IsCheckedInTheOrderOfSteps) {
   EXPECT_THROW(check_forks({later, gone}, three_cars(), kSteps), std::invalid_argument);
 }
 
-// With right of way vehicles are named after their starts, not their routes.
-TEST(ChangeText, OfAnUnknownRouteNamesThatOfTheVehicle) {
-  const scenario::Scenario& scenario = cars_with_right_of_way();
-  const auto is_route_of_the_vehicle = [&](const std::string& name) {
-    const auto route = std::ranges::find(scenario.routes, name, &road::DrivableRoute::name);
-    return route != scenario.routes.end() &&
-           route->path.points_m() == scenario.vehicles.front().path.points_m();
-  };
-  try {
-    static_cast<void>(change_from_text("route=1:pink", scenario));
-    FAIL() << "not refused";
-  } catch (const std::invalid_argument& error) {
-    const std::string text = error.what();
-    const std::string before = "that of vehicle 1 is ";
-    ASSERT_NE(text.find(before), std::string::npos) << text;
-    EXPECT_TRUE(is_route_of_the_vehicle(text.substr(text.find(before) + before.size()))) << text;
-  }
-}
-
 TEST(ChangeText, IsReadAsWritten) {
   const auto read = [](const std::string& text) { return change_from_text(text, three_cars()); };
   EXPECT_EQ(read("priorities=3,1"), Fork::Change(Fork::Priorities{{{3}, {1}}}));
