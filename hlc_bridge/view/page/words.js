@@ -93,7 +93,7 @@ function zone_rows(run, vehicle, k) {
   const { zones, next } = run.held_in(vehicle, k);
   const holds = (one) => one !== vehicle && run.held_in(one, k).zones.includes(next);
   return [
-    ["zones held", zones.join(", ") || "none"],
+    ["zones held", zones.map((zone) => `zone ${zone}`).join(", ") || "none"],
     ...(next ? [[`parts of zone ${next}, next, held by`, run.vehicles.filter(holds).map(({ id }) => id)]] : []),
   ];
 }

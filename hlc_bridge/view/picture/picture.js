@@ -24,6 +24,11 @@ const kLegend = [
   ["keeps its plan, stops or is stuck", (panel, y) => panel.box(y, "ground", "alarm")],
 ];
 
+const kZones = [
+  ["conflict zone, where routes meet", (panel, y) => panel.sample(y, "line", 8)],
+  ["road that a car holds", (panel, y) => panel.sample(y, "car-1", 6)],
+];
+
 /// The words in at most so many lines of the context's font; what does not fit is left out.
 function lines_of(context, words, width_px, most) {
   const fits = (line) => context.measureText(line).width <= width_px;
@@ -91,9 +96,10 @@ class Panel {
   }
 
   /// @return where it begins
-  legend() {
-    const begin = this.height - kMargin_px - kLegend.length * kLine_px;
-    kLegend.forEach(([words, draw], i) => {
+  legend({ roads }) {
+    const entries = [...kLegend, ...(roads.length ? kZones : [])];
+    const begin = this.height - kMargin_px - entries.length * kLine_px;
+    entries.forEach(([words, draw], i) => {
       const y = begin + (i + 0.5) * kLine_px;
       draw(this, y);
       this.text(words, kBadge_px + 8, y, { size_px: 12, name: "muted" });
@@ -168,7 +174,7 @@ class Picture {
     context.save();
     panel.ground();
     panel.title(run.about, t, this.speed === 1 ? "" : `speed ${this.speed}`);
-    panel.cars(run, t, panel.legend());
+    panel.cars(run, t, panel.legend(run));
     context.restore();
   }
 

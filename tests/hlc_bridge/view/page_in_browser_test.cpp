@@ -132,7 +132,7 @@ TEST_F(PageInBrowser, ARunWithRightOfWayShowsConflictZonesAndWhoHoldsThem) {
     result.next = row(`parts of zone ${zones[result.first_conflict]}, next, held by`);
   )");
   EXPECT_EQ(result.at("is_offered"), true);
-  EXPECT_EQ(result.at("held"), "1, 2");
+  EXPECT_EQ(result.at("held"), "zone 1, zone 2");
   EXPECT_EQ(result.at("held_by_second"), "none");
   EXPECT_EQ(result.at("num_places"), 11) << "0.4 m of 40 mm each, and the first";
   EXPECT_GT(result.at("first_conflict"), 11);
