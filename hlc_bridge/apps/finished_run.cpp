@@ -18,8 +18,8 @@ namespace hlc::apps {
 namespace {
 
 constexpr const char* kHowExplained =
-    "explain RUN --vehicle N --step K answers it (with --tree also what was searched); explain RUN "
-    "--all fills this row where a car begins to stand, to wait or to keep its plan";
+    "explain RUN --vehicle VEHICLE --step STEP answers it (with --tree also what was searched); "
+    "explain RUN --all fills this row where a car begins to stand, to wait or to keep its plan";
 constexpr const char* kNotExplained =
     "only a run in logical time can be explained (run_lab.sh --simulated_time=true)";
 

@@ -50,7 +50,7 @@ struct FinishedRun {
   std::string time;      ///< kind of time, as text: "logical time"
   std::string revision;  ///< of the programs
   std::string fault;     ///< what was wrong with the drive; empty: nothing
-  /// How a step can be explained: N stands for the vehicle, K for the step; empty: not yet.
+  /// How a step can be explained: VEHICLE and STEP stand for their numbers; empty: not yet.
   std::string how_explained;
 };
 

@@ -112,7 +112,7 @@ export function report_rows(run, vehicle, t) {
   }
   if (!report) return rows;
   const { k, status, reason, quality, gap_m2, level } = report;
-  const why = vehicle.whys[k] || run.about.why.replace("N", vehicle.id).replace("K", k);
+  const why = vehicle.whys[k] || run.about.why.replace("VEHICLE", vehicle.id).replace("STEP", k);
   const gap = gap_m2 > 0 ? `, at most ${gap_m2.toFixed(4)} m2 above the optimum` : "";
   return [
     ...rows,

@@ -149,7 +149,7 @@ TEST_F(PageInBrowser, ARunWithoutRightOfWayOffersNoZones) {
 
 TEST_F(PageInBrowser, AReportOfLogicalTimeHasItsExplanationOrTheCommandThatFindsIt) {
   FinishedRun run = sample_run(2, 20);
-  run.how_explained = "explain RUN --vehicle N --step K";
+  run.how_explained = "explain RUN --vehicle VEHICLE --step STEP";
   const json result = result_of(run, R"(
     page.run.take({ kind: "why", vehicle: 2, steps: [[5, 6, "did\n<b>stood</b>"]] });
     page.select(2);
