@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kHowExplained =
     "explain RUN --vehicle VEHICLE --step STEP answers it (with --tree also what was searched); "
-    "explain RUN --all fills this row where a car begins to stand, to wait or to keep its plan";
+    "explain RUN --all fills this row where a car stands, waits or keeps its plan";
 constexpr const char* kNotExplained =
     "only a run in logical time can be explained (run_lab.sh --simulated_time=true)";
 
@@ -58,7 +58,9 @@ view::FinishedRun finished_run(record::RunFolder read, std::string fault) {
   return run;
 }
 
-void write_page(record::RunFolder read, std::string fault) {
+void write_page(record::RunFolder read) {
+  std::string fault =
+      verdict_on(result::summarize(read.description, read.facts, read.rows, read.drives)).fault;
   const std::filesystem::path file = page_file(read.folder);
   write_file(file, view::run_page(finished_run(std::move(read), std::move(fault))));
 }

@@ -24,7 +24,8 @@ struct Verdict {
 /// its logs or its explanations
 [[nodiscard]] view::FinishedRun finished_run(record::RunFolder read, std::string fault);
 
-/// Writes the page file. @throws also std::runtime_error naming it if it cannot be written
-void write_page(record::RunFolder read, std::string fault);
+/// Writes the page file, with the run's verdict.
+/// @throws as finished_run; std::runtime_error naming the file if it cannot be written
+void write_page(record::RunFolder read);
 
 }  // namespace hlc::apps

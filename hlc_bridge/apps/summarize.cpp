@@ -29,8 +29,7 @@
 
 namespace {
 
-/// The page of an earlier summary may show another result. @throws
-/// std::filesystem::filesystem_error
+/// The page of an earlier summary may show another result.
 void remove_old_page(const std::filesystem::path& run) {
   const std::filesystem::path page = hlc::apps::page_file(run);
   std::error_code error;

@@ -158,7 +158,9 @@ std::vector<KeptFork> kept_forks(const fs::path& run_folder) {
 std::string forks_text(std::span<const KeptFork> forks) {
   std::vector<std::string> texts;
   for (const KeptFork& fork : forks) {
-    texts.push_back(fmt::format("from step {} on {}", fork.from, fmt::join(fork.set, ", ")));
+    texts.push_back(fmt::format(
+        "from step {} on {}", fork.from,
+        fork.set.empty() ? "nothing changed" : fmt::format("{}", fmt::join(fork.set, ", "))));
   }
   return texts.empty() ? "" : fmt::format("a fork: {}", fmt::join(texts, "; "));
 }

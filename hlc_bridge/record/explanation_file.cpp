@@ -39,16 +39,17 @@ std::vector<result::Explanation> read_explanations(const std::filesystem::path& 
     const std::uint64_t step = table.unsigned_number(row, kStep);
     const auto is_of = [&](const result::Explanation& one) { return one.vehicle.value == vehicle; };
     if (std::ranges::none_of(expected, is_of)) {
-      table.refuse(row, kVehicle,
-                   "a vehicle of the run that was hindered: the file of another run?");
+      table.refuse(
+          row, kVehicle,
+          "a vehicle of the run that was hindered or braked to a stand: the file of another run?");
     }
     const auto found = std::ranges::find_if(
         expected, [&](const result::Explanation& one) { return is_of(one) && one.step == step; });
     if (found == expected.end()) {
       table.refuse(
           row, kStep,
-          "one in which the vehicle begins to keep its plan, to wait or to miss others: the "
-          "file of another run?");
+          "one in which the vehicle begins to keep its plan, to wait or to miss others, or brakes "
+          "to a stand: the file of another run?");
     }
     explanations.push_back({.step = step,
                             .last = found->last,

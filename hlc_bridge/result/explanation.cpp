@@ -50,8 +50,8 @@ constexpr std::array<bool (*)(const coordination::Report&), 4> kHindrances{
 
 double speed_mps(const StepRecord& row) { return std::abs(row.driven_speed_mps.value_or(0.0)); }
 
-/// Of a vehicle that stands from row `stand` on: the first row whose plan brakes. The plan of a step
-/// is driven from the next one on.
+/// Of a vehicle that stands from row `stand` on: the first row whose plan brakes. The plan of a
+/// step is driven from the next one on.
 std::optional<std::size_t> first_braking_row(const VehicleRows& rows, std::size_t stand) {
   std::size_t fastest = stand;
   while (fastest > 0 && speed_mps(*rows[fastest - 1]) > speed_mps(*rows[fastest]) + kNoise_mps) {
@@ -61,36 +61,49 @@ std::optional<std::size_t> first_braking_row(const VehicleRows& rows, std::size_
   return fastest > 0 ? fastest - 1 : 0;
 }
 
-/// The first row of every hindrance, and every row whose plan brakes to a stand, each with the last
-/// row that it explains: the last one to brake explains the stand.
-std::map<std::size_t, std::size_t> begins(const VehicleRows& rows) {
-  std::map<std::size_t, std::size_t> last_by_first;
-  const auto add = [&](std::size_t first, std::size_t last) {
-    std::size_t& known = last_by_first[first];
+bool is_hindered(const StepRecord& row) {
+  return std::ranges::any_of(kHindrances,
+                             [&](const auto& is_one) { return is_one(row.record.report); });
+}
+
+/// Rows to explain, each with the last row that its explanation is about.
+class ExplainedRows {
+ public:
+  explicit ExplainedRows(const VehicleRows& rows) : rows_(rows) {
+    for (const auto& is_one : kHindrances) {
+      const auto has_it = [&](const StepRecord& row) { return is_one(row.record.report); };
+      for (const Stretch& one : stretches(rows, has_it)) add(one.first, one.last);
+    }
+    const auto stands = [](const StepRecord& row) {
+      return row.driven_speed_mps && speed_mps(row) < kStanding_mps;
+    };
+    for (const Stretch& one : stretches(rows, stands)) add_braking(one);
+  }
+
+  [[nodiscard]] const std::map<std::size_t, std::size_t>& last_by_first() const {
+    return last_by_first_;
+  }
+
+ private:
+  void add(std::size_t first, std::size_t last) {
+    std::size_t& known = last_by_first_[first];
     known = std::max(known, last);
-  };
-  for (const auto& is_hindered : kHindrances) {
-    for (const Stretch& one :
-         stretches(rows, [&](const StepRecord& row) { return is_hindered(row.record.report); })) {
-      add(one.first, one.last);
+  }
+
+  /// Every row whose plan brakes; the last of them explains the stand, too. The plan of a step is
+  /// driven in the next one, at whose end the vehicle stands: two rows before the first such row.
+  void add_braking(const Stretch& stand) {
+    const auto first = first_braking_row(rows_, stand.first);
+    if (!first) return;
+    const std::size_t last = stand.first >= *first + 2 ? stand.first - 2 : *first;
+    for (std::size_t row = *first; row <= last; ++row) {
+      if (!is_hindered(*rows_[row])) add(row, row == last ? stand.last : row);
     }
   }
-  const auto hindered = [&](std::size_t row) {
-    return std::ranges::any_of(kHindrances, [&](const auto& is_hindered) {
-      return is_hindered(rows[row]->record.report);
-    });
-  };
-  for (const Stretch& one : stretches(rows, [](const StepRecord& row) {
-         return row.driven_speed_mps && speed_mps(row) < kStanding_mps;
-       })) {
-    const auto first = first_braking_row(rows, one.first);
-    if (!first || hindered(one.first)) continue;
-    const std::size_t last = std::max(*first + 2, one.first) - 2;
-    for (std::size_t row = *first; row < last; ++row) add(row, row);
-    add(last, one.last);
-  }
-  return last_by_first;
-}
+
+  const VehicleRows& rows_;
+  std::map<std::size_t, std::size_t> last_by_first_;
+};
 
 }  // namespace
 
@@ -104,7 +117,8 @@ std::vector<Explanation> steps_to_explain(std::span<const StepRecord> rows) {
   }
   std::vector<Explanation> steps;
   for (const auto& [vehicle, own] : rows_of) {
-    for (const auto& [first, last] : begins(own)) {
+    const ExplainedRows explained(own);
+    for (const auto& [first, last] : explained.last_by_first()) {
       steps.push_back(
           {.step = own[first]->step, .last = own[last]->step, .vehicle = vehicle, .text = {}});
     }

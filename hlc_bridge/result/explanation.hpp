@@ -27,8 +27,8 @@ struct SearchPage {
 
 /// The steps of which somebody who looks at the run wants an explanation, without their text: those
 /// in which a vehicle begins to keep its plan, to drive its last one to the end, to wait for
-/// others, or to miss messages of others, and those in which, with new plans and unhindered, it
-/// brakes to a stand. By step, then vehicle.
+/// others, or to miss messages of others, and every one in which it brakes to a stand by a new plan
+/// without any of these. By step, then vehicle.
 /// @param rows  of step_records()
 [[nodiscard]] std::vector<Explanation> steps_to_explain(std::span<const StepRecord> rows);
 

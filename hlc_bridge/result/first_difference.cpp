@@ -222,6 +222,14 @@ std::optional<Finding> finding_of(const Step& step, const RowsOfBoth& rows) {
                                              rows.a != nullptr ? kOnlyFirst : kOnlySecond)};
 }
 
+std::string apart_text(const Pose& a, const Pose& b) {
+  const double apart_m = (a.position_m() - b.position_m()).norm();
+  constexpr double kMicrometre_m = 1e-6;
+  if (apart_m >= 1.0) return fmt::format("{:.2f} m apart", apart_m);
+  if (apart_m >= kMicrometre_m) return fmt::format("{:.3g} mm apart", 1e3 * apart_m);
+  return "less than 0.001 mm apart, or turned";
+}
+
 }  // namespace
 
 std::optional<Difference> first_difference(Rows a, Rows b) {
@@ -239,18 +247,26 @@ std::optional<Difference> first_difference(Rows a, Rows b) {
   return std::nullopt;
 }
 
-std::optional<Difference> first_apart(Rows a, Rows b) {
+WayDifference way_difference(Rows a, Rows b) {
+  WayDifference difference;
   for (const auto& [step, vehicles] : steps_of(a, b)) {
     for (const auto& [vehicle, rows] : vehicles) {
-      if (rows.a == nullptr || rows.b == nullptr || !rows.a->driven || !rows.b->driven) continue;
-      const Pose& in_a = *rows.a->driven;
-      const Pose& in_b = *rows.b->driven;
-      if (in_a == in_b) continue;
-      const double apart_m = (in_a.position_m() - in_b.position_m()).norm();
-      return Difference{step, vehicle, fmt::format("{:.2g} mm apart", 1e3 * apart_m)};
+      if (rows.a == nullptr || rows.b == nullptr || !rows.a->driven || !rows.b->driven) {
+        difference.is_complete = false;
+      } else if (!difference.first && *rows.a->driven != *rows.b->driven) {
+        difference.first = {step, vehicle, apart_text(*rows.a->driven, *rows.b->driven)};
+      }
     }
   }
-  return std::nullopt;
+  return difference;
+}
+
+std::string text_of(const WayDifference& difference, double step_s) {
+  if (difference.first) {
+    return "the first car to drive elsewhere: " + text_of(*difference.first, step_s);
+  }
+  return difference.is_complete ? "all cars drive the same way"
+                                : "where both are recorded, all cars drive the same way";
 }
 
 std::string text_of(const Difference& difference, double step_s) {

@@ -38,10 +38,17 @@ struct Difference {
 [[nodiscard]] std::optional<Difference> first_difference(std::span<const StepRecord> a,
                                                          std::span<const StepRecord> b);
 
-/// The first step in which a vehicle is elsewhere than in the other run (by its driven pose, bit for
-/// bit), with the smallest id of those: "1.2 mm apart". nothing: they drive the same.
-[[nodiscard]] std::optional<Difference> first_apart(std::span<const StepRecord> a,
-                                                    std::span<const StepRecord> b);
+/// The driven poses of two runs, compared bit for bit.
+struct WayDifference {
+  /// The first step in which a vehicle drives elsewhere, with the smallest id of those, and how far
+  /// apart: "1.2 mm apart"; none: nowhere where both poses are recorded.
+  std::optional<Difference> first;
+  bool is_complete{true};  ///< every row has its counterpart, both with a driven pose
+};
+[[nodiscard]] WayDifference way_difference(std::span<const StepRecord> a,
+                                           std::span<const StepRecord> b);
+/// "the first car to drive elsewhere: step 9 (1.8 s), vehicle 1: 1.2 mm apart", or that none does.
+[[nodiscard]] std::string text_of(const WayDifference& difference, double step_s);
 
 /// "step 57 (11.4 s), vehicle 3: input: ...".
 [[nodiscard]] std::string text_of(const Difference& difference, double step_s);

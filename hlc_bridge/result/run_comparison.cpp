@@ -167,10 +167,10 @@ RunComparison compare(ComparedRun a, ComparedRun b, std::vector<std::string> sta
         fmt::format("{} and {}: no vehicle started, must have steps to compare", a.name, b.name));
   }
   std::optional<Difference> first = first_difference(a.rows, b.rows);
-  std::optional<Difference> apart = first_apart(a.rows, b.rows);
+  WayDifference ways = way_difference(a.rows, b.rows);
   std::string other = first ? "" : other_difference(a, b);
-  return {std::move(a),     std::move(b),     std::move(started),
-          std::move(first), std::move(apart), std::move(other)};
+  return {std::move(a),     std::move(b),    std::move(started),
+          std::move(first), std::move(ways), std::move(other)};
 }
 
 std::vector<std::string> comparison_lines(const RunComparison& comparison) {
@@ -182,11 +182,8 @@ std::vector<std::string> comparison_lines(const RunComparison& comparison) {
   for (const ComparedRun* run : {&comparison.a, &comparison.b}) {
     for (const std::string& line : run->incomplete) lines.push_back(run->name + ": " + line);
   }
-  const double step_s = comparison.a.summary.description.step_s;
-  if (comparison.apart) {
-    lines.push_back("a car is elsewhere first at " + text_of(*comparison.apart, step_s));
-  } else if (comparison.first) {
-    lines.emplace_back("all cars drive the same way");
+  if (comparison.first) {
+    lines.push_back(text_of(comparison.ways, comparison.a.summary.description.step_s));
   }
   lines.push_back(result_line(comparison));
   return lines;

@@ -25,7 +25,7 @@ struct RunComparison {
   ComparedRun b;
   std::vector<std::string> started;  ///< in what they were started differently, one line each
   std::optional<Difference> first;   ///< of their rows
-  std::optional<Difference> apart;   ///< first_apart() of their rows
+  WayDifference ways;                ///< of their rows
   /// In what runs with equal rows differ: whether all steps were driven, or what was driven between
   /// two steps. Empty: in nothing.
   std::string other_difference;

@@ -218,9 +218,9 @@ void add_drives(const RunComparison& comparison, const ComparedRun& run, const c
   }
 }
 
-/// Where a car is elsewhere first; if none is, the first difference of any kind.
+/// Where a car first drives elsewhere; if none does, the first difference of any kind.
 const std::optional<result::Difference>& marked(const RunComparison& comparison) {
-  return comparison.apart ? comparison.apart : comparison.first;
+  return comparison.ways.first ? comparison.ways.first : comparison.first;
 }
 
 /// Where the vehicle is in that step; where it plans to be if its motion was not recorded.
@@ -244,10 +244,11 @@ std::string legend(const RunComparison& comparison) {
   html += sample(fmt::format(fmt::runtime(line), "a", neutral), "first run");
   html += sample(fmt::format(fmt::runtime(line), "b", neutral), "second run");
   if (const auto& mark = marked(comparison)) {
-    html += sample(R"(<circle class="mark" cx="17" cy="7" r="5"/>)",
-                   fmt::format("{}, vehicle {}, step {}",
-                               comparison.apart ? "first elsewhere" : "first difference",
-                               mark->vehicle.value, mark->step));
+    html +=
+        sample(R"(<circle class="mark" cx="17" cy="7" r="5"/>)",
+               fmt::format("{}, vehicle {}, step {}",
+                           comparison.ways.first ? "first to drive elsewhere" : "first difference",
+                           mark->vehicle.value, mark->step));
   }
   std::size_t number = 0;
   for (const std::uint8_t id : vehicle_ids(comparison)) {

@@ -50,7 +50,8 @@ struct FinishedRun {
   std::string time;      ///< kind of time, as text: "logical time"
   std::string revision;  ///< of the programs
   std::string fault;     ///< what was wrong with the drive; empty: nothing
-  /// How a step can be explained: VEHICLE and STEP stand for their numbers; empty: not yet.
+  /// How a step can be explained, or why not: VEHICLE and STEP stand for their numbers; empty:
+  /// nothing is known of that yet.
   std::string how_explained;
 };
 

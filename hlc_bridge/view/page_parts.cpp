@@ -51,7 +51,7 @@ std::string about(const FinishedRun& run) {
   std::vector<std::string> words{
       fmt::format("{} cars", run.facts.vehicle_ids.size()),
       "profile " + description.profile,
-      run.time + (run.fork.empty() ? "" : ", " + run.fork),
+      run.time,
       description.map.empty() ? "open ground" : "map " + description.map,
       "subgraph " + description.subgraph,
       fmt::format("horizon {} steps of {} s", description.horizon_steps, description.step_s),
@@ -59,7 +59,7 @@ std::string about(const FinishedRun& run) {
   if (description.policy != policy::kNoPolicy) words.push_back("policy " + description.policy);
   if (description.has_two_rounds) words.emplace_back("two rounds of messages");
   words.push_back("revision " + run.revision);
-  return fmt::format("{}", fmt::join(words, ", "));
+  return fmt::format("{}{}", fmt::join(words, ", "), run.fork.empty() ? "" : "; " + run.fork);
 }
 
 /// What went wrong; empty: nothing.

@@ -4,10 +4,12 @@
 
 namespace hlc::view {
 
-/// Words of the page: an object of `keys`, what keys and mouse do; `terms`, what rows of a report
-/// mean;
-/// `qualities` of plans; and `reasons` why a vehicle kept its plan, by enumerator. In a reason,
-/// CARS stands for the vehicles that hinder it; "REASON alone" has the words where there are none.
+/// Words that the page shows, as data of a run: so they have a compiler that misses none of an
+/// enumerator, and no part in the 60 kB of the page. An object of `keys`, what keys and mouse do
+/// (page/main.js); `terms`, what rows of a report mean; `kinds` of states, with what the time
+/// line's legend calls them, in its order ("late" is no state but a mark of the planning times);
+/// `qualities` of plans; `reasons` why a vehicle kept its plan: [words in which CARS stands for the
+/// vehicles that hinder it, words where none are named].
 [[nodiscard]] Json page_words();
 
 }  // namespace hlc::view

@@ -12,6 +12,8 @@
 #include <system_error>
 #include <utility>
 
+#include "planner/common/sha256.hpp"
+#include "planner/common/text_file.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/scenario/problem_file.hpp"
@@ -82,26 +84,23 @@ ProblemDump::ProblemDump(std::filesystem::path folder, const std::filesystem::pa
   }
 }
 
-std::filesystem::path ProblemDump::automaton_file_for(VehicleId vehicle,
-                                                      const controller::SearchedProblem& searched) {
+std::filesystem::path ProblemDump::automaton_file_for(const controller::SearchedProblem& searched) {
   const automaton::Subgraph& subgraph = *searched.subgraph;
   if (subgraph.spec() == declared_ && !needs_disabled(subgraph, searched.problem)) {
     return automaton_file_;
   }
   const Foreign foreign = foreign_maneuvers(subgraph, searched.problem);
-  if (!foreign.empty()) return write_automaton(vehicle, subgraph, foreign);
+  if (!foreign.empty()) return write_automaton(subgraph, foreign);
   const auto known = std::ranges::find_if(written_, [&](const auto& one) {
     return one.first->spec() == subgraph.spec() &&
            one.first->shared_automaton() == subgraph.shared_automaton();
   });
   if (known != written_.end()) return known->second;
-  const auto& written =
-      written_.emplace_back(searched.subgraph, write_automaton(vehicle, subgraph, {}));
+  const auto& written = written_.emplace_back(searched.subgraph, write_automaton(subgraph, {}));
   return written.second;
 }
 
-std::filesystem::path ProblemDump::write_automaton(VehicleId vehicle,
-                                                   const automaton::Subgraph& subgraph,
+std::filesystem::path ProblemDump::write_automaton(const automaton::Subgraph& subgraph,
                                                    const Foreign& foreign) {
   if (!origin_) origin_ = origin_of(automaton_file_);
   automaton::AutomatonFile file = *origin_;
@@ -116,9 +115,10 @@ std::filesystem::path ProblemDump::write_automaton(VehicleId vehicle,
   }
   file.labels = labels_of(automaton);
   file.automaton = std::make_shared<const automaton::UniversalAutomaton>(std::move(automaton));
-  std::filesystem::path name =
-      fmt::format("vehicle_{}_automaton_{}.yaml", vehicle.value, ++num_written_);
-  automaton::write_automaton_file(file, folder_ / name);
+  const std::string text = automaton::to_text(file);
+  constexpr std::size_t kDigits = 12;
+  std::filesystem::path name = fmt::format("automaton_{}.yaml", sha256_of(text).substr(0, kDigits));
+  write_file(folder_ / name, text);
   return name;
 }
 
@@ -128,7 +128,7 @@ void ProblemDump::write(const controller::Controller& controller) {
                              std::size_t number) {
     const std::string name = fmt::format("vehicle_{}_step_{:010}_{}_{}.json", options.vehicle.value,
                                          controller.last_step().value, what, number);
-    write_problem_file({.automaton_file = automaton_file_for(options.vehicle, searched),
+    write_problem_file({.automaton_file = automaton_file_for(searched),
                         .subgraph = searched.subgraph,
                         .problem = searched.problem,
                         .search = options.search},

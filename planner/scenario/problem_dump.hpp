@@ -23,7 +23,7 @@ namespace hlc::scenario {
 ///
 /// A problem needs another automaton file than the scenario's if its subgraph was requested on the
 /// way, or if the plan in force still has maneuvers of a subgraph before it. That file is
-/// vehicle_<id>_automaton_<j>.yaml in the same folder, j counts them from 1.
+/// automaton_<hash of its text>.yaml in the same folder: several dumps may write there.
 class ProblemDump {
  public:
   /// Makes the folder if necessary.
@@ -41,18 +41,16 @@ class ProblemDump {
  private:
   using Foreign = std::vector<const automaton::Maneuver*>;
 
-  /// The automaton file for a vehicle's problem: the scenario's, or one written here.
+  /// The automaton file for a problem: the scenario's, or one written here.
   [[nodiscard]] std::filesystem::path automaton_file_for(
-      VehicleId vehicle, const controller::SearchedProblem& searched);
-  [[nodiscard]] std::filesystem::path write_automaton(VehicleId vehicle,
-                                                      const automaton::Subgraph& subgraph,
+      const controller::SearchedProblem& searched);
+  [[nodiscard]] std::filesystem::path write_automaton(const automaton::Subgraph& subgraph,
                                                       const Foreign& foreign);
 
   std::filesystem::path folder_;
   std::filesystem::path automaton_file_;
   automaton::SubgraphSpec declared_;
   std::optional<automaton::AutomatonFile> origin_;  ///< the scenario's, once needed
-  std::size_t num_written_{};
   /// Those written without foreign maneuvers.
   std::vector<std::pair<std::shared_ptr<const automaton::Subgraph>, std::filesystem::path>>
       written_;

@@ -191,8 +191,9 @@ TEST_F(Scripts, PlanningProblemsOfARunAreSolvedAgainWithTheSameVertices) {
   ASSERT_EQ(run.wait_for(120s), 0) << output();
   auto expected = searched_vertices(out / "reports.csv");
   EXPECT_GE(expected.size(), 30U);
-  EXPECT_TRUE(std::filesystem::exists(problems / "vehicle_1_automaton_1.yaml")) << "no switch";
+  std::size_t num_automata = 0;
   for (const auto& entry : std::filesystem::directory_iterator(problems)) {
+    num_automata += entry.path().extension() == ".yaml" ? 1U : 0U;
     if (entry.path().extension() != ".json") continue;
     const std::string name = entry.path().stem().string();
     SCOPED_TRACE(name);
@@ -207,6 +208,7 @@ TEST_F(Scripts, PlanningProblemsOfARunAreSolvedAgainWithTheSameVertices) {
     vertices.first -= json["generated"].get<std::uint64_t>();
     vertices.second -= json["expanded"].get<std::uint64_t>();
   }
+  EXPECT_GT(num_automata, 0U) << "no controller switched";
   for (const auto& [name, rest] : expected) {
     EXPECT_EQ(rest.first, 0U) << name;
     EXPECT_EQ(rest.second, 0U) << name;

@@ -11,6 +11,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,7 +19,6 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/record/explanation_file.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
-#include "hlc_bridge/result/run_summary.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/plot/search_page.hpp"
@@ -52,19 +52,15 @@ const hlc::coordination::Report* report_of(const Rows& rows, const Choices& choi
   return found == rows.end() ? nullptr : &found->record.report;
 }
 
-/// What the controller searched last in the step, as a page.
+/// What the controller searched last in the step, as a page; empty: it searched nothing.
 std::string search_page_of(const hlc::controller::Controller& controller,
                            const std::filesystem::path& automaton_file) {
-  if (controller.problems().empty()) {
-    throw std::invalid_argument(fmt::format("--tree: vehicle {} searched nothing in this step",
-                                            controller.options().vehicle.value));
-  }
+  if (controller.problems().empty()) return {};
   const hlc::controller::SearchedProblem& searched = controller.problems().back();
   const hlc::scenario::ProblemFile file{.automaton_file = automaton_file,
                                         .subgraph = searched.subgraph,
                                         .problem = searched.problem,
                                         .search = controller.options().search};
-  hlc::search::check_can_be_recorded(file.search);
   const hlc::automaton::ReachableSets reachable(*file.subgraph, file.problem.horizon_steps());
   return hlc::plot::search_page(
       file, hlc::search::record_search(*file.subgraph, reachable, file.search, file.problem));
@@ -165,22 +161,43 @@ std::vector<VehicleId> that_may_matter(const hlc::coordination::Report& report,
   return {found.begin(), found.end()};
 }
 
-/// The page as a file of its own and within the run's page.
-void keep_search_page(hlc::record::RunFolder run, const Choices& choices,
-                      const std::string& search_page) {
+/// The page as a file of its own and within the run's page. @return exit code
+int keep_search_page(hlc::record::RunFolder run, const Choices& choices,
+                     const std::string& search_page) {
+  if (search_page.empty()) {
+    std::cerr << fmt::format("explain: --tree: vehicle {} searched nothing in step {}\n",
+                             choices.vehicle, choices.step);
+    return hlc::kExitBadInput;
+  }
   const std::filesystem::path file =
       hlc::record::search_page_file(run.folder, hlc::VehicleId{choices.vehicle}, choices.step);
-  std::filesystem::create_directories(file.parent_path());
+  const std::filesystem::path page = hlc::apps::page_file(run.folder);
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  if (error) {
+    throw std::runtime_error(file.parent_path().string() +
+                             ": cannot be created: " + error.message());
+  }
   hlc::write_file(file, search_page);
-  const hlc::apps::Verdict verdict = hlc::apps::verdict_on(
-      hlc::result::summarize(run.description, run.facts, run.rows, run.drives));
+  hlc::apps::write_page(std::move(run));
   std::cout << fmt::format("\nwhat was searched: {}\nthe run as a page, with it: {}\n",
-                           file.string(), hlc::apps::page_file(run.folder).string());
-  hlc::apps::write_page(std::move(run), verdict.fault);
+                           file.string(), page.string());
+  return hlc::kExitGood;
+}
+
+/// Before anything is driven or written.
+void check_can_be_recorded(const hlc::record::RunFolder& run) {
+  try {
+    hlc::search::check_can_be_recorded(run.scenario.search);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(
+        fmt::format("{}: {}, for --tree", run.folder.string(), error.what()));
+  }
 }
 
 int explain_step(hlc::record::RunFolder run, const Choices& choices) {
   check_choices(run, choices);
+  if (choices.tree) check_can_be_recorded(run);
   const Drives drives(run, choices);
   std::optional<hlc::scenario::ProblemDump> dump;
   if (!choices.problems.empty()) {
@@ -197,8 +214,8 @@ int explain_step(hlc::record::RunFolder run, const Choices& choices) {
     for (const VehicleId one : may_matter) explained.without_one.push_back(drives.without({one}));
   }
   std::cout << hlc::apps::explanation(explained);
-  if (choices.tree) keep_search_page(std::move(run), choices, driven.search_page);
-  return hlc::kExitGood;
+  return choices.tree ? keep_search_page(std::move(run), choices, driven.search_page)
+                      : hlc::kExitGood;
 }
 
 int explain(const Choices& choices) {
@@ -209,9 +226,7 @@ int explain(const Choices& choices) {
   if (!choices.all) return explain_step(std::move(run), choices);
   const std::size_t count = hlc::apps::explain_all(std::move(run));
   const char* const why_none =
-      count > 0
-          ? ""
-          : " (no vehicle began to brake to a stand, to wait, to keep its plan or to miss others)";
+      count > 0 ? "" : " (no vehicle waited, kept its plan, missed others or braked to a stand)";
   std::cout << fmt::format("{} steps explained{}: {}\nthe run as a page: {}\n", count, why_none,
                            hlc::record::explanations_file(choices.run).string(),
                            hlc::apps::page_file(choices.run).string());
@@ -237,8 +252,8 @@ int main(int argc, char** argv) {
           ->check(hlc::apps::whole(0, 100000));
   CLI::Option* const all = app.add_flag(
       "--all", choices.all,
-      "instead: explains every step in which a vehicle begins to keep its plan, to brake to a "
-      "stand, to wait or to miss others, by searches alone (the run is driven once; some seconds "
+      "instead: explains every step in which a vehicle begins to keep its plan, to wait or to "
+      "miss others, or brakes to a stand, by searches alone (the run is driven once; some seconds "
       "for 20 cars and 150 steps), writes explanations.csv into the run folder and its run.html "
       "again with them");
   CLI::Option* const problems = app.add_option(

@@ -6,7 +6,6 @@
 
 #include "hlc_bridge/apps/finished_run.hpp"
 #include "hlc_bridge/record/explanation_file.hpp"
-#include "hlc_bridge/result/run_summary.hpp"
 #include "planner/apps/progress_line.hpp"
 #include "planner/common/text_file.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
@@ -71,9 +70,7 @@ std::size_t explain_all(record::RunFolder run) {
       result::steps_to_explain(result::rows_before(run.rows, recorded));
   check_same_until(recorded, run, explain(run, explanations));
   write_file(record::explanations_file(run.folder), record::explanations_csv(explanations));
-  const Verdict verdict =
-      verdict_on(result::summarize(run.description, run.facts, run.rows, run.drives));
-  write_page(std::move(run), verdict.fault);
+  write_page(std::move(run));
   return explanations.size();
 }
 

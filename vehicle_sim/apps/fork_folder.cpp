@@ -33,10 +33,16 @@ std::vector<closed_loop::Fork> forks_of(const record::RunFolder& run) {
   return forks;
 }
 
+/// The topmost folder on the way to `folder` that does not exist; `folder` itself if it does.
+fs::path first_new_on_the_way_to(const fs::path& folder) {
+  fs::path first_new = fs::absolute(folder / "").lexically_normal().parent_path();
+  while (!fs::exists(first_new.parent_path())) first_new = first_new.parent_path();
+  return first_new;
+}
+
 /// Whether a folder can be made there: tried, as permissions do not show it everywhere (/proc).
 bool can_be_created(const fs::path& folder) {
-  fs::path first_new = fs::absolute(folder);
-  while (!fs::exists(first_new.parent_path())) first_new = first_new.parent_path();
+  const fs::path first_new = first_new_on_the_way_to(folder);
   std::error_code error;
   const bool is_new = !fs::exists(folder, error);
   fs::create_directories(folder, error);
@@ -118,19 +124,21 @@ fs::path fork_folder(const record::RunFolder& run, std::uint64_t from, const fs:
 
 void write_fork(const fs::path& folder, const record::RunFolder& run, std::uint64_t from,
                 const std::vector<std::string>& set, const closed_loop::Experiment& experiment) {
-  const bool was_there = fs::exists(folder);
+  // Whole or not at all, also for a process that is killed: a name that is given when all is there.
+  fs::path part = fs::absolute(folder / "").lexically_normal().parent_path();
+  part += ".part";
+  const fs::path first_new = first_new_on_the_way_to(part);
+  fs::remove_all(part);
   try {
-    copy_files(run.folder / "configuration", folder / "configuration");
+    copy_files(run.folder / "configuration", part / "configuration");
     std::vector<record::KeptFork> forks = record::kept_forks(run.folder);
     forks.push_back({.from = from, .set = set});
-    write_file(record::forks_file(folder), record::forks_yaml(forks));
-    write_records(folder, experiment);
+    write_file(record::forks_file(part), record::forks_yaml(forks));
+    write_records(part, experiment);
+    fs::rename(part, folder);
   } catch (const std::exception&) {
     std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-      fs::remove_all(entry, error);
-    }
-    if (!was_there) fs::remove(folder, error);
+    fs::remove_all(first_new, error);
     throw;
   }
 }

@@ -93,12 +93,9 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
   if (difference) {
     std::cout << "parts (run and fork) at "
               << hlc::result::text_of(*difference, recorded.description.step_s) << '\n';
-    const auto apart = hlc::result::first_apart(run_rows, fork_rows);
-    std::cout << (apart ? "a car is elsewhere first at " +
-                              hlc::result::text_of(*apart, recorded.description.step_s)
-                        : "all cars drive as before")
-              << '\n'
-              << why_unchanged(recorded, choices, apart.has_value()) << '\n';
+    const hlc::result::WayDifference ways = hlc::result::way_difference(run_rows, fork_rows);
+    std::cout << hlc::result::text_of(ways, recorded.description.step_s) << '\n'
+              << why_unchanged(recorded, choices, ways.first.has_value()) << '\n';
   } else {
     std::cout << "the fork is the same as the run: trace_sha256 "
               << hlc::result::trace_sha256(fork_rows) << "\n\n";

@@ -57,8 +57,12 @@ bool is_in_force(const std::vector<const automaton::Maneuver*>& maneuvers,
 std::optional<ExplainedStep::Choice> choice_of(const Controller& controller) {
   const search::SearchOptions& options = controller.options().search;
   if (!search::is_admissible(options.cost_to_go)) return {};
-  const search::HorizonProblem& problem = controller.problems().back().problem;
-  const controller::PreparedSubgraph& on = controller.prepared_subgraph();
+  const auto& [problem, subgraph] = controller.problems().back();
+  const controller::PreparedSubgraph& prepared = controller.prepared_subgraph();
+  const controller::PreparedSubgraph on =
+      subgraph == prepared.subgraph  // after a switch it may be the one before
+          ? prepared
+          : controller::prepare_subgraph(subgraph, problem.horizon_steps(), options);
   const search::SearchResult result =
       search::make_search_engine(*on.subgraph, *on.reachable, options, on.tables)->search(problem);
   if (result.maneuvers.empty() || !is_in_force(result.maneuvers, controller)) return {};

@@ -126,10 +126,11 @@ class Page {
     on("follow", "change", () => this.set_follow(this.follow));
     on("speed", "change", ({ target }) => (this.player.speed = Number(target.value)));
     on("scrub", "input", seek);
-    on("time", "change", (event) => {
-      seek(event);
-      event.target.blur(); // keys play again, and the field shows where that led
+    on("time", "change", ({ target }) => {
+      this.player.seek(Number(target.value));
+      target.value = this.player.t.toFixed(2);
     });
+    on("time", "keydown", ({ key, target }) => key === "Enter" && target.blur());
     on("layers", "change", () => this.show());
     const keys = {};
     for (const [key, action, button] of this.actions()) {

@@ -76,7 +76,7 @@ export class Report {
     this.list.replaceChildren();
     for (const [name, content] of rows) {
       const parts = content.map?.((id) => this.car_button(id)) ||
-        [content.k === undefined ? content : this.search_button(vehicle.searches[content.k])];
+        [content.k === undefined ? content : this.search_button(vehicle, content.k)];
       const value = element("dd", "", { "data-row": name });
       value.append(...(parts.length ? parts : ["none"]));
       const title = this.run.about.words.terms[name];
@@ -94,13 +94,14 @@ export class Report {
   }
 
   /// Shows a page of its own over this one, without scripts.
-  search_button(srcdoc) {
+  search_button({ id, searches }, k) {
     const button = element("button", "show the search tree");
     button.addEventListener("click", () => {
-      const [dialog, close] = [element("dialog"), element("button", "close")];
+      const [dialog, close] = [element("dialog"), element("button", `close: car ${id}, step ${k}`)];
       close.addEventListener("click", () => dialog.close());
       dialog.addEventListener("close", () => dialog.remove());
-      dialog.append(close, element("iframe", "", { srcdoc, sandbox: "" }));
+      dialog.addEventListener("keydown", (event) => event.stopPropagation()); // Escape closes it
+      dialog.append(close, element("iframe", "", { srcdoc: searches[k], sandbox: "" }));
       document.body.append(dialog);
       dialog.showModal();
     });

@@ -1,7 +1,7 @@
 // Pictures over time: what every car did in every step, and how long planning took.
 
 import { clean_context, colour } from "./draw.js";
-import { kKinds, seconds, state_of } from "./words.js";
+import { seconds, state_of } from "./words.js";
 
 const kLeft_px = 30; // for the cars' numbers
 const kRight_px = 16;
@@ -130,7 +130,7 @@ export class TimeLine {
     const is_late = ({ steps }) => steps.some((report) => report.is_late);
     if (this.run.vehicles.some(is_late)) kinds.add("late");
     element.replaceChildren();
-    for (const [kind, words] of Object.entries(kKinds)) {
+    for (const [kind, words] of Object.entries(this.run.about.words.kinds)) {
       if (!kinds.has(kind)) continue;
       const entry = document.createElement("span");
       const sample = document.createElement("canvas");

@@ -10,21 +10,21 @@ export function seconds(value, digits = 1) {
 
 /// Why the car kept its plan, after "keeps its plan: ".
 function reason_words(run, { reason, blocked_by }) {
-  const { reasons } = run.about.words;
-  const words = reasons[blocked_by.length ? reason : `${reason} alone`] || reasons[reason];
-  return words.replace("CARS", ids_text(blocked_by));
+  const [by_cars, alone] = run.about.words.reasons[reason];
+  return blocked_by.length ? by_cars.replace("CARS", ids_text(blocked_by)) : alone;
 }
 
-/// {kind, words, short}: kind is one of kKinds, short a label for the map, empty: none.
+/// {kind, words, short}: kind is one of page_words.cpp, short a label for the map, empty: none.
 export function state_of(run, vehicle, t) {
   const state = (kind, words, short = "") => ({ kind, words, short });
+  const { unknown } = run.about.words.kinds;
   const report = run.report_at(vehicle, t);
   if (!report) return state("silent", "no report in this step", "no report");
   const driven = run.driven_at(vehicle, t);
   const stands = driven && Math.abs(driven.speed) < 0.025; // m/s
   if (report.status === "minimal_risk_stop") {
     const motion = stands ? "stands" : "drives its plan to the end";
-    return state("stop", `minimal-risk stop: ${driven ? motion : kKinds.unknown}`, "stop");
+    return state("stop", `minimal-risk stop: ${driven ? motion : unknown}`, "stop");
   }
   const since_s = report.waits_since * run.step_s;
   const wait = wait_words(report, since_s, t);
@@ -42,7 +42,7 @@ export function state_of(run, vehicle, t) {
     const where = report.reason === "off_route" ? ", off every route" : "";
     return state("standby", `stands by for the start${where}`);
   }
-  if (!driven) return state("unknown", kKinds.unknown, "not recorded");
+  if (!driven) return state("unknown", unknown, "not recorded");
   if (stands) return state("stands", "stands");
   return state("drives", `drives, ${Math.abs(driven.speed).toFixed(2)} m/s`);
 }
@@ -52,20 +52,6 @@ function wait_words({ waits_for }, since_s, t) {
   const for_s = Math.max(0, t - since_s);
   return `waits for ${ids_text(waits_for)} since ${seconds(since_s)} (for ${seconds(for_s)})`;
 }
-
-/// Kinds of state, with what the time line's legend calls them.
-export const kKinds = {
-  drives: "drives",
-  stands: "stands",
-  waits: "waits for others",
-  stuck: "stuck: waits for long",
-  fallback: "keeps its old plan (fallback)",
-  stop: "minimal-risk stop",
-  standby: "standby",
-  unknown: "no driven path recorded",
-  silent: "no report",
-  late: "deadline missed (lowest strip)", // no state, but a mark of the strip of planning times
-};
 
 export function milliseconds(value_s) {
   return `${(value_s * 1e3).toFixed(2)} ms`;

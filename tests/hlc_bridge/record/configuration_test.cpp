@@ -181,6 +181,8 @@ TEST(Configuration, ForksAreReadBackAndNameTheirObstaclesAndTheVehiclesTheyTakeO
   EXPECT_EQ(obstacles[1].pose, (Pose{3.0, 4.0, 0.0}));
   EXPECT_EQ(obstacles[1].width_m, 2.0);
   EXPECT_EQ(forks_text({}), "");
+  const KeptFork nothing_changed{.from = 2, .set = {}};
+  EXPECT_EQ(forks_text({&nothing_changed, 1}), "a fork: from step 2 on nothing changed");
 }
 
 TEST(Configuration, FolderWithoutFlagsIsNamed) {

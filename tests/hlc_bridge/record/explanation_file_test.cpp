@@ -74,9 +74,12 @@ TEST(ExplanationFile, TheStepsWhosePlansBrakeToAStandAreToBeExplained) {
   EXPECT_THAT(result::steps_to_explain(rows_at({0.0, 0.03, 0.02, 0.03, 0.02})), IsEmpty())
       << "it never left";
   std::vector<result::StepRecord> waiting = rows_at({0.8, 0.8, 0.4, 0.0, 0.0});
+  waiting[0].record.report.status = coordination::StepStatus::kFallback;
   waiting[3].record.report.waiting.vehicles = {VehicleId{3}};
-  EXPECT_THAT(result::steps_to_explain(waiting), ElementsAre(Explanation{3, 3, VehicleId{2}, ""}))
-      << "once for one stand";
+  EXPECT_THAT(result::steps_to_explain(waiting),
+              ElementsAre(Explanation{0, 0, VehicleId{2}, ""}, Explanation{1, 4, VehicleId{2}, ""},
+                          Explanation{3, 3, VehicleId{2}, ""}))
+      << "the fallback of step 0 does not brake by a new plan; the wait is explained by itself";
 }
 
 TEST(ExplanationFile, TextsOfSeveralLinesReadBack) {

@@ -101,20 +101,38 @@ TEST(RunComparison, NamesStepTimeAndVehicleOfTheFirstDifference) {
             "the runs differ at step 1 (1.0 s), vehicle 1: messages: computation level 0 and 1");
 }
 
-TEST(RunComparison, NamesWhereACarIsElsewhereFirst) {
-  ComparedRun one = driven_run(2);
-  for (StepRecord& row : one.rows) row.driven = Pose{1.0, 2.0, 0.0};
-  ComparedRun other = one;
-  other.rows[1].record.report.level = 1;  // vehicle 1, step 1
-  StepRecord& last = other.rows.back();
-  last.driven->y_m += 0.002;
-  const RunComparison comparison = compare(one, other, {});
-  ASSERT_TRUE(comparison.apart);
-  EXPECT_EQ(comparison.apart->step, last.step);
-  EXPECT_EQ(comparison.apart->vehicle, last.record.report.vehicle);
-  EXPECT_THAT(comparison_lines(comparison),
-              testing::Contains(testing::AllOf(testing::StartsWith("a car is elsewhere first at"),
-                                               HasSubstr("2 mm apart"))));
+/// Two runs; in the second vehicle 1 plans on another level in step 1, and the last row's car is
+/// beside its place in the first.
+RunComparison apart_by(double apart_m, double turned_rad = 0.0) {
+  ComparedRun other = driven_run(2);
+  other.rows[1].record.report.level = 1;
+  other.rows.back().driven = Pose{0.0, apart_m, turned_rad};
+  return compare(driven_run(2), std::move(other), {});
+}
+
+std::string way_line(const RunComparison& comparison) {
+  const std::vector<std::string> lines = comparison_lines(comparison);
+  return lines.at(lines.size() - 2);
+}
+
+TEST(RunComparison, NamesTheFirstCarToDriveElsewhere) {
+  const RunComparison comparison = apart_by(0.002);
+  ASSERT_TRUE(comparison.ways.first);
+  EXPECT_EQ(comparison.ways.first->step, comparison.a.rows.back().step);
+  EXPECT_EQ(comparison.ways.first->vehicle, comparison.a.rows.back().record.report.vehicle);
+  EXPECT_THAT(way_line(comparison), testing::StartsWith("the first car to drive elsewhere: step "));
+  EXPECT_THAT(way_line(comparison), testing::EndsWith(": 2 mm apart"));
+  EXPECT_THAT(way_line(apart_by(1.25)), testing::EndsWith(": 1.25 m apart"));
+  EXPECT_THAT(way_line(apart_by(0.0, 0.1)), HasSubstr("or turned"));
+  EXPECT_EQ(way_line(apart_by(0.0)), "all cars drive the same way");
+}
+
+TEST(RunComparison, OfWaysThatAreNotRecordedNothingIsClaimed) {
+  ComparedRun other = driven_run(2);
+  other.rows[1].record.report.level = 1;
+  other.rows.pop_back();
+  EXPECT_EQ(way_line(compare(driven_run(2), std::move(other), {})),
+            "where both are recorded, all cars drive the same way");
 }
 
 TEST(RunComparison, VehiclesWithOtherNumbersAndThoseOfOneRunHaveTheirOwnRows) {

@@ -176,6 +176,11 @@ TEST_F(PageInBrowser, WhatWasSearchedInAStepIsShownOverThePage) {
     const frame = dialog.querySelector("iframe");
     result.page = frame.srcdoc;
     result.sandbox = frame.getAttribute("sandbox");
+    dialog.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
+    result.t = page.player.t;
+    const escape = new KeyboardEvent("keydown", { key: "Escape", bubbles: true, cancelable: true });
+    result.is_left_to_the_browser = dialog.dispatchEvent(escape);
+    result.selected = page.selected;
     const closed = new Promise((done) => dialog.addEventListener("close", done));
     dialog.querySelector("button").click();
     await closed;
@@ -185,6 +190,9 @@ TEST_F(PageInBrowser, WhatWasSearchedInAStepIsShownOverThePage) {
   EXPECT_EQ(result.at("is_open"), true);
   EXPECT_EQ(result.at("page"), run.searches.front().html);
   EXPECT_EQ(result.at("sandbox"), "") << "scripts are off";
+  EXPECT_EQ(result.at("t"), 1) << "keys are not those of the page below";
+  EXPECT_EQ(result.at("is_left_to_the_browser"), true) << "Escape closes the dialog";
+  EXPECT_EQ(result.at("selected"), 2);
   EXPECT_EQ(result.at("is_gone"), true);
 }
 
@@ -212,18 +220,20 @@ TEST_F(PageInBrowser, AnObstacleThatAForkAddedIsDrawnFromItsStepOn) {
   EXPECT_THAT(result.at("about"), HasSubstr(run.fork));
 }
 
-TEST_F(PageInBrowser, ATimeThatCannotBeIsCorrectedAndTheKeysPlayOn) {
+TEST_F(PageInBrowser, ATimeThatCannotBeIsCorrectedAndAfterEnterTheKeysPlay) {
   const json result = result_of(sample_run(2, 20), R"(
     const field = by_id("time");
     field.focus();
     field.value = "99";
     field.dispatchEvent(new Event("change"));
-    page.draw();
+    result.has_focus = document.activeElement === field;
+    field.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
     result.shown = Number(field.value);
     result.end = page.run.end_s;
     result.is_left = document.activeElement !== field;
   )");
   EXPECT_EQ(result.at("shown"), result.at("end"));
+  EXPECT_EQ(result.at("has_focus"), true) << "it can be stepped again";
   EXPECT_EQ(result.at("is_left"), true);
 }
 

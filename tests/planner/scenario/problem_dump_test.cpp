@@ -213,6 +213,29 @@ TEST(ProblemDump, EveryDecisionAfterRequestsIsSolvedAgainAlikeByItsFilesAlone) {
   EXPECT_GT(num_after_requests, 10U);
 }
 
+TEST(ProblemDump, SeveralOfThemMayWriteIntoOneFolder) {
+  const Scenario scenario = read_scenario({.file = kFolder + "on_request.yaml"});
+  const test::TemporaryFolder folder;
+  std::map<fs::path, double> limits_mps;
+  for (const double limit_mps : {0.4, 0.6}) {
+    ProblemDump dump(folder.path(), scenario.automaton_file, scenario.subgraph->spec());
+    rollout::Rollout rollout = rollout::make_rollout(scenario);
+    controller::Controller& controller = *rollout.controllers().front();
+    controller.switch_to(automaton::requested_subgraph(
+        *scenario.subgraph, {.max_speed_mps = limit_mps}, scenario.horizon_steps));
+    for (std::size_t step = 0; step < (limit_mps < 0.5 ? 1U : 2U); ++step) {
+      static_cast<void>(rollout.step());
+    }
+    dump.write(controller);
+    limits_mps[folder / fmt::format("vehicle_1_step_{:010}_search_1.json",
+                                    controller.last_step().value)] = limit_mps;
+  }
+  ASSERT_EQ(limits_mps.size(), 2U);
+  for (const auto& [file, limit_mps] : limits_mps) {
+    EXPECT_EQ(read_problem_file(file).subgraph->spec().max_speed_mps, limit_mps) << file;
+  }
+}
+
 TEST(ProblemDumpErrors, AFolderThatCannotBeMadeIsNamed) {
   try {
     const ProblemDump dump("/proc/nowhere", "paper.yaml", {});
