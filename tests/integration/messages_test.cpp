@@ -68,6 +68,7 @@ TEST(Messages, OfEveryProcessAreRecordedAndTheRunIsTheSame) {
   for (const McapMessage& message : messages) {
     if (message.metadata.contains("publisher")) publishers.insert(message.metadata.at("publisher"));
     if (message.type == "VehicleState") ticks[message.topic].push_back(message.log_time);
+    if (message.topic == "scene/map") EXPECT_EQ(message.log_time, messages.front().log_time);
   }
   EXPECT_EQ(publishers.size(), recorded.names().size()) << testing::PrintToString(publishers);
   EXPECT_EQ(ticks.size(), 3U);
