@@ -77,6 +77,8 @@ TEST(LiveScene, AReportIsShownOnceWithItsPlan) {
   EXPECT_EQ(report.at("step"), run.rows[2].record.report.step.value);
   EXPECT_EQ(report.at("status"), "planned");
   EXPECT_THAT(topics_of(scene.updates()), IsEmpty());
+  scene.take(run.rows[0].record);  // late joiners get earlier ones, too
+  EXPECT_THAT(topics_of(scene.updates()), IsEmpty());
 }
 
 }  // namespace
