@@ -37,8 +37,9 @@ mcap::JsonChannel scene_channel(const char* topic, Frames&& frames) {
 Frames cars(const FinishedRun& run, const Scene& scene) {
   std::set<Nanoseconds> times;
   for (const auto& [id, drive] : run.drives) {
-    for (const result::DrivenSample& sample : drive)
+    for (const result::DrivenSample& sample : drive) {
       times.insert(sample.t / kFrameTime * kFrameTime);
+    }
   }
   Frames frames;
   for (const result::VehicleDescription* vehicle : scene.vehicles()) {
@@ -88,7 +89,6 @@ mcap::JsonChannel reports_channel(const FinishedRun& run, Nanoseconds begin) {
   return channel;
 }
 
-/// A line without a time of the run has that of the line before it.
 mcap::JsonChannel log_channel(const FinishedRun& run, Nanoseconds recorded_from,
                               Nanoseconds begin) {
   mcap::JsonChannel channel{.topic = "log", .type = kLog, .schema = log_schema(), .messages = {}};

@@ -13,13 +13,14 @@ namespace hlc::view {
 ///
 /// | topic | type | content |
 /// |---|---|---|
-/// | `scene/map` | foxglove.SceneUpdate | bounds of the lanes and routes of the vehicles, once, at
-/// `recorded_from` |
+/// | `scene/map` | foxglove.SceneUpdate | bounds of lanes, routes of vehicles; once, at the begin |
 /// | `scene/cars` | the same | driven footprints with the numbers of all vehicles, every 40 ms |
 /// | `scene/plans` | the same | planned path and area of the maneuver under way, every step |
 /// | `reports` | hlc.Reports | what the controllers did in a step, every step |
-/// | `log` | foxglove.Log | lines of the processes; those without a time of the run, in logical
-/// time all, at that of the line before, or at `recorded_from` |
+/// | `log` | foxglove.Log | lines of the processes |
+///
+/// A line without a time of the run, in logical time every one, has that of the line before it, or
+/// of the begin of the recording; no line is before that.
 ///
 /// Equal runs give equal scenes. Numbers of a scene that are not finite are 0.
 ///
