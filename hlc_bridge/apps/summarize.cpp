@@ -52,8 +52,10 @@ std::vector<std::filesystem::path> recorded_parts(const std::filesystem::path& r
 void write_messages(const std::filesystem::path& run,
                     const std::vector<std::filesystem::path>& parts,
                     const hlc::view::FinishedRun& finished) {
-  const hlc::mcap::Merged merged =
-      hlc::mcap::merge(parts, hlc::view::foxglove_channels(finished), run / "run.mcap");
+  const auto scene_from = [&finished](std::optional<hlc::Nanoseconds> recorded_from) {
+    return hlc::view::foxglove_channels(finished, recorded_from);
+  };
+  const hlc::mcap::Merged merged = hlc::mcap::merge(parts, scene_from, run / "run.mcap");
   if (merged.cut_off.empty()) std::filesystem::remove_all(run / "messages");
   for (const std::filesystem::path& part : merged.cut_off) {
     std::cerr << "summarize: " << part.string()

@@ -45,6 +45,11 @@ class Messages {
     }
   }
 
+  [[nodiscard]] std::optional<Nanoseconds> first_time() const {
+    if (all_.empty()) return std::nullopt;
+    return std::ranges::min(all_, {}, &Message::log_time).log_time;
+  }
+
   void write_sorted() {
     std::ranges::stable_sort(all_, {}, [](const Message& message) {
       return std::tuple(message.log_time, message.publish_time);
@@ -89,14 +94,15 @@ class Messages {
 
 }  // namespace
 
-Merged merge(const std::vector<std::filesystem::path>& parts,
-             const std::vector<JsonChannel>& others, const std::filesystem::path& file) {
+Merged merge(const std::vector<std::filesystem::path>& parts, const OthersFrom& others_from,
+             const std::filesystem::path& file) {
   IndexedFile merged(file);
   Messages messages(merged);
   Merged result;
   for (const std::filesystem::path& part : parts) {
     if (!messages.take_part(part)) result.cut_off.push_back(part);
   }
+  const std::vector<JsonChannel> others = others_from(messages.first_time());
   for (const JsonChannel& channel : others) messages.take(channel);
   messages.write_sorted();
   merged.finish();

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,11 +27,15 @@ struct Merged {
   std::vector<std::filesystem::path> cut_off;
 };
 
+/// The messages to add to a recording whose first message is of this time; nothing: it has none.
+using OthersFrom =
+    std::function<std::vector<JsonChannel>(std::optional<Nanoseconds> recorded_from)>;
+
 /// Writes one indexed file with the messages of all parts (MessageRecorder), by time of the run,
 /// then by wall time.
 /// @throws std::runtime_error naming a part that is no MCAP file or contradicts itself, and the
 /// file that cannot be read or written
-Merged merge(const std::vector<std::filesystem::path>& parts,
-             const std::vector<JsonChannel>& others, const std::filesystem::path& file);
+Merged merge(const std::vector<std::filesystem::path>& parts, const OthersFrom& others_from,
+             const std::filesystem::path& file);
 
 }  // namespace hlc::mcap

@@ -1,16 +1,20 @@
 #include "hlc_bridge/view/foxglove_channels.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
+#include "hlc_bridge/view/foxglove_schemas.hpp"
+#include "hlc_bridge/view/report_messages.hpp"
 #include "hlc_bridge/view/scene.hpp"
 
 namespace hlc::view {
 namespace {
 
-constexpr const char* kLog = "foxglove.Log";
 constexpr Nanoseconds kFrameTime = 40'000'000;
 
 using Frames = std::map<Nanoseconds, Json>;  ///< entities by time
@@ -28,16 +32,22 @@ mcap::JsonChannel scene_channel(const char* topic, Frames&& frames) {
   return channel;
 }
 
+/// All cars at the same times: after a jump in time viewers have no message but the last one of the
+/// topic.
 Frames cars(const FinishedRun& run, const Scene& scene) {
+  std::set<Nanoseconds> times;
+  for (const auto& [id, drive] : run.drives) {
+    for (const result::DrivenSample& sample : drive) {
+      times.insert(sample.t / kFrameTime * kFrameTime);
+    }
+  }
   Frames frames;
   for (const result::VehicleDescription* vehicle : scene.vehicles()) {
     const auto drive = run.drives.find(vehicle->id.value);
     if (drive == run.drives.end()) continue;
-    std::optional<Nanoseconds> last;
-    for (const result::DrivenSample& sample : drive->second) {
-      if (last && sample.t < *last + kFrameTime) continue;
-      last = sample.t;
-      frame_at(sample.t, frames).push_back(scene.car(*vehicle, sample.pose, sample.t));
+    for (const Nanoseconds time : times) {
+      const std::optional<Pose> pose = result::driven_pose_at(drive->second, time);
+      if (pose) frame_at(time, frames).push_back(scene.car(*vehicle, *pose, time));
     }
   }
   return frames;
@@ -62,20 +72,33 @@ int level_number(const std::string& level) {
   return found == kLevels.end() ? 0 : found->second;
 }
 
-mcap::JsonChannel log_channel(const FinishedRun& run, Nanoseconds begin) {
-  mcap::JsonChannel channel{.topic = "log",
-                            .type = kLog,
-                            .schema = schema_text(kLog, {{"timestamp", {{"type", "object"}}},
-                                                         {"level", {{"type", "integer"}}},
-                                                         {"message", {{"type", "string"}}},
-                                                         {"name", {{"type", "string"}}},
-                                                         {"file", {{"type", "string"}}},
-                                                         {"line", {{"type", "integer"}}}}),
-                            .messages = {}};
+mcap::JsonChannel reports_channel(const FinishedRun& run, Nanoseconds begin) {
+  Frames frames;
+  for (const result::StepRecord& row : run.rows) {
+    const Nanoseconds time = begin + row.step * run.facts.period;
+    const auto drive = run.drives.find(row.record.report.vehicle.value);
+    const std::optional<double> speed_mps =
+        drive == run.drives.end() ? std::nullopt : result::driven_speed_mps_at(drive->second, time);
+    frame_at(time, frames).push_back(report_json(row.record, speed_mps));
+  }
+  mcap::JsonChannel channel{
+      .topic = "reports", .type = kReportsType, .schema = reports_schema(), .messages = {}};
+  for (auto& [time, reports] : frames) {
+    channel.messages.emplace_back(time, reports_message(std::move(reports)));
+  }
+  return channel;
+}
+
+mcap::JsonChannel log_channel(const FinishedRun& run, Nanoseconds recorded_from,
+                              Nanoseconds begin) {
+  mcap::JsonChannel channel{.topic = "log", .type = kLog, .schema = log_schema(), .messages = {}};
+  Nanoseconds time = recorded_from;
   for (const result::LoggedLine& line : run.log) {
-    const double time_s = line.run_s.value_or(-1.0) + 1e-9 * static_cast<double>(begin);
-    if (!line.run_s || time_s < 0.0) continue;
-    const auto time = static_cast<Nanoseconds>(1e9 * time_s);
+    if (line.run_s) {
+      const std::int64_t since_begin = 1'000'000 * std::llround(1e3 * *line.run_s);
+      time = static_cast<Nanoseconds>(std::max(static_cast<std::int64_t>(begin) + since_begin,
+                                               static_cast<std::int64_t>(recorded_from)));
+    }
     channel.messages.emplace_back(time, text_of({{"timestamp", time_json(time)},
                                                  {"level", level_number(line.level)},
                                                  {"message", line.text},
@@ -88,12 +111,15 @@ mcap::JsonChannel log_channel(const FinishedRun& run, Nanoseconds begin) {
 
 }  // namespace
 
-std::vector<mcap::JsonChannel> foxglove_channels(const FinishedRun& run) {
+std::vector<mcap::JsonChannel> foxglove_channels(const FinishedRun& run,
+                                                 std::optional<Nanoseconds> recorded_from) {
   const Nanoseconds begin = run.facts.first_step.value_or(0) * run.facts.period;
+  const Nanoseconds first = recorded_from.value_or(begin);
   const Scene scene(run);
-  return {scene_channel("scene/map", {{begin, scene.map(begin)}}),
+  return {scene_channel("scene/map", {{first, scene.map(first)}}),
           scene_channel("scene/cars", cars(run, scene)),
-          scene_channel("scene/plans", plans(run, scene, begin)), log_channel(run, begin)};
+          scene_channel("scene/plans", plans(run, scene, begin)), reports_channel(run, begin),
+          log_channel(run, first, begin)};
 }
 
 }  // namespace hlc::view

@@ -40,27 +40,28 @@ class LiveScene {
 
   void take(const ReportRecord& record);
   void take(const VehicleState& state);
-  /// About what was taken since the last call, by channel; of each vehicle the newest.
+  /// Of the channels about which something was taken since the last call, in their order. Each has
+  /// the newest of every vehicle, so that the last message of a channel is all that a viewer needs.
   [[nodiscard]] std::vector<SceneMessage> updates();
 
  private:
-  /// What was taken of a vehicle; drawn only when it is asked for, since states come far more
-  /// often.
+  /// The newest of a vehicle; drawn only when it is asked for, since states come far more often.
   struct Vehicle {
     const result::VehicleDescription* description{};
-    std::optional<VehicleState> state;   ///< not yet sent
-    std::optional<ReportRecord> report;  ///< not yet sent
-    std::optional<StepIndex> last_step;  ///< of the reports taken
+    std::optional<VehicleState> state;
+    std::optional<ReportRecord> report;
   };
 
   [[nodiscard]] Vehicle* find(std::uint8_t id);
-  void add_cars(std::vector<SceneMessage>& messages);
-  void add_steps(std::vector<SceneMessage>& messages);
+  [[nodiscard]] SceneMessage cars() const;
+  void add_steps(std::vector<SceneMessage>& messages) const;
 
   FinishedRun run_;
   Scene scene_;
   std::map<std::uint8_t, Vehicle> vehicles_;
   bool has_sent_map_{};
+  bool has_new_state_{};
+  bool has_new_report_{};
 };
 
 }  // namespace hlc::view

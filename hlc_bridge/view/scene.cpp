@@ -88,18 +88,6 @@ Json time_json(Nanoseconds time) {
   return {{"sec", time / kNanosecondsPerSecond}, {"nsec", time % kNanosecondsPerSecond}};
 }
 
-std::string schema_text(const char* title,
-                        const std::vector<std::pair<const char*, Json>>& members) {
-  Json schema{{"title", title}, {"type", "object"}};
-  for (const auto& [name, type] : members) schema["properties"][name] = type;
-  return text_of(schema);
-}
-
-std::string scene_schema() {
-  const Json objects{{"type", "array"}, {"items", {{"type", "object"}}}};
-  return schema_text(kSceneUpdate, {{"deletions", objects}, {"entities", objects}});
-}
-
 std::string scene_update(Json entities) {
   return text_of({{"deletions", Json::array()}, {"entities", std::move(entities)}});
 }

@@ -3,15 +3,12 @@
 #include <map>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "hlc_bridge/view/page_json.hpp"
 #include "hlc_bridge/view/page_messages.hpp"
 
 namespace hlc::view {
-
-inline constexpr const char* kSceneUpdate = "foxglove.SceneUpdate";
 
 /// The scene of a run in the message types that viewers draw by themselves (Foxglove, Lichtblick),
 /// in JSON: entities of foxglove.SceneUpdate in the frame "map" of the scenario, metres; an entity
@@ -46,13 +43,8 @@ class Scene {
 
 /// A foxglove.SceneUpdate.
 [[nodiscard]] std::string scene_update(Json entities);
-[[nodiscard]] std::string scene_schema();
 
 /// {"sec": ..., "nsec": ...}
 [[nodiscard]] Json time_json(Nanoseconds time);
-
-/// JSON schema of an object with these members, of these types.
-[[nodiscard]] std::string schema_text(const char* title,
-                                      const std::vector<std::pair<const char*, Json>>& members);
 
 }  // namespace hlc::view

@@ -69,6 +69,9 @@ TEST(Messages, OfEveryProcessAreRecordedAndTheRunIsTheSame) {
     if (message.metadata.contains("publisher")) publishers.insert(message.metadata.at("publisher"));
     if (message.type == "VehicleState") ticks[message.topic].push_back(message.log_time);
   }
+  const auto map = std::ranges::find(messages, "scene/map", &McapMessage::topic);
+  ASSERT_NE(map, messages.end());
+  EXPECT_EQ(map->log_time, messages.front().log_time);
   EXPECT_EQ(publishers.size(), recorded.names().size()) << testing::PrintToString(publishers);
   EXPECT_EQ(ticks.size(), 3U);
   for (const auto& [topic, times] : ticks) {

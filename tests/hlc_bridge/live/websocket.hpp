@@ -9,11 +9,11 @@
 
 namespace hlc::live {
 
-/// A websocket by RFC 6455, as far as the tests need it: short messages in one frame.
+/// A websocket by RFC 6455, as far as the tests need it: it sends messages in one frame.
 class Websocket {
  public:
   struct Frame {
-    int opcode{};  ///< 1: text, 2: binary, 8: close, 9: ping
+    int opcode{};  ///< 1: text, 2: binary, 8: close
     std::string payload;
   };
 
@@ -40,25 +40,37 @@ class Websocket {
     client_.send(frame + std::string(4, '\0') + text);
   }
 
-  /// The next frame but pings; nothing if the server has closed.
+  /// The next message, or control frame but pings; nothing if the server has closed.
   [[nodiscard]] std::optional<Frame> next() {
+    Frame message;
     for (;;) {
       const std::string head = client_.read_exactly(2);
       if (head.size() < 2) return std::nullopt;
-      std::uint64_t size = static_cast<unsigned char>(head[1]);
-      if (size >= 126) {
-        const std::string long_size = client_.read_exactly(size == 126 ? 2 : 8);
-        size = 0;
-        for (const char byte : long_size) size = size << 8 | static_cast<unsigned char>(byte);
-      }
-      Frame frame{head[0] & 0x0F, client_.read_exactly(size)};
-      if (frame.opcode != 9) return frame;
+      const int opcode = head[0] & 0x0F;
+      const std::string payload = client_.read_exactly(payload_size(head[1]));
+      if (opcode == kPing) continue;
+      if (opcode != kContinuation) message.opcode = opcode;
+      message.payload += payload;
+      const bool is_last = (head[0] & 0x80) != 0;
+      if (is_last) return message;
     }
   }
 
   static constexpr const char* kSubprotocol = "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n";
 
  private:
+  static constexpr int kContinuation = 0;
+  static constexpr int kPing = 9;
+
+  [[nodiscard]] std::uint64_t payload_size(char of_head) {
+    std::uint64_t size = static_cast<unsigned char>(of_head);
+    if (size < 126) return size;
+    const std::string long_size = client_.read_exactly(size == 126 ? 2 : 8);
+    size = 0;
+    for (const char byte : long_size) size = size << 8 | static_cast<unsigned char>(byte);
+    return size;
+  }
+
   test::HttpClient client_;
   std::string answer_;
 };

@@ -20,6 +20,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+std::vector<JsonChannel> nothing(std::optional<Nanoseconds> /*recorded_from*/) { return {}; }
+
 /// The part of a process that published `count` messages on three topics.
 std::filesystem::path record_part(const std::filesystem::path& folder, const std::string& process,
                                   std::size_t count, std::mt19937_64& random) {
@@ -60,7 +62,7 @@ TEST(Merge, HasEveryWholeMessageOfEveryPartByTimeAlsoOfPartsThatAreCutOff) {
     std::ranges::stable_sort(expected, {}, [](const test::McapMessage& message) {
       return std::tuple(message.log_time, message.publish_time);
     });
-    const Merged merged = merge(parts, {}, folder / "run.mcap");
+    const Merged merged = merge(parts, nothing, folder / "run.mcap");
     EXPECT_EQ(merged.num_messages, expected.size());
     EXPECT_EQ(merged.cut_off, cut_off);
     EXPECT_TRUE(test::read_by_index(folder / "run.mcap") == expected);
@@ -72,7 +74,14 @@ TEST(Merge, AddsOtherMessagesByTheirTime) {
   const test::TemporaryFolder folder;
   const std::filesystem::path part = record_part(folder.path(), "a", 40, random);
   const JsonChannel scene{.topic = "scene", .type = "S", .messages = {{0, "{}"}, {10, "[]"}}};
-  EXPECT_EQ(merge({part}, {scene}, folder / "run.mcap").num_messages, 42U);
+  std::optional<Nanoseconds> begin;
+  const auto scene_from = [&](std::optional<Nanoseconds> recorded_from) {
+    begin = recorded_from;
+    return std::vector{scene};
+  };
+  EXPECT_EQ(merge({part}, scene_from, folder / "run.mcap").num_messages, 42U);
+  const std::vector<test::McapMessage> recorded = test::read_from_begin(part);
+  EXPECT_EQ(begin, std::ranges::min(recorded, {}, &test::McapMessage::log_time).log_time);
   const std::vector<test::McapMessage> messages = test::read_by_index(folder / "run.mcap");
   EXPECT_TRUE(std::ranges::is_sorted(messages, {}, &test::McapMessage::log_time));
   std::vector<std::string> texts;
@@ -85,7 +94,7 @@ TEST(Merge, AddsOtherMessagesByTheirTime) {
 TEST(Merge, APartWithoutAByteHasNoMessages) {
   const test::TemporaryFolder folder;
   test::put(folder / "a.mcap", "");
-  const Merged merged = merge({folder / "a.mcap"}, {}, folder / "run.mcap");
+  const Merged merged = merge({folder / "a.mcap"}, nothing, folder / "run.mcap");
   EXPECT_EQ(merged.num_messages, 0U);
   EXPECT_THAT(merged.cut_off, ElementsAre(folder / "a.mcap"));
   EXPECT_THAT(test::read_by_index(folder / "run.mcap"), IsEmpty());
@@ -109,7 +118,9 @@ TEST(Merge, ErrorsNameThePartAndLeaveNothing) {
                                                         {"c.mcap", "c.mcap: a record contradicts"},
                                                         {"d.mcap", "d.mcap: a record contradicts"},
                                                         {"e.mcap", "e.mcap"}}) {
-    const auto merge_it = [&, part = folder / name] { merge({part}, {}, folder / "run.mcap"); };
+    const auto merge_it = [&, part = folder / name] {
+      merge({part}, nothing, folder / "run.mcap");
+    };
     EXPECT_THAT(merge_it, testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr(line)));
     EXPECT_FALSE(std::filesystem::exists(folder / "run.mcap"));
   }

@@ -14,11 +14,12 @@ namespace {
 
 using Messages = std::vector<std::pair<Nanoseconds, nlohmann::json>>;
 
+constexpr Nanoseconds kRecordedFrom = 123'456'789;
+
 /// Of one topic; all as JSON.
 Messages messages_of(const FinishedRun& run, const std::string& topic) {
   Messages messages;
-  for (const mcap::JsonChannel& channel : foxglove_channels(run)) {
-    EXPECT_EQ(nlohmann::json::parse(channel.schema).at("title"), channel.type);
+  for (const mcap::JsonChannel& channel : foxglove_channels(run, kRecordedFrom)) {
     if (channel.topic != topic) continue;
     for (const auto& [time, text] : channel.messages) {
       messages.emplace_back(time, nlohmann::json::parse(text));
@@ -58,6 +59,28 @@ TEST(FoxgloveChannels, EveryCarIsWhereItDroveEvery40Milliseconds) {
       EXPECT_EQ(of_car[i] - of_car[i - 1], 40'000'000U);
     }
   }
+}
+
+/// After a jump in time viewers have the last message of a topic only.
+TEST(FoxgloveChannels, EveryMessageHasAllCarsThatDriveThenAlsoIfTheyAreRecordedAtOtherTimes) {
+  FinishedRun run = sample_run(3, 10);
+  for (result::DrivenSample& sample : run.drives.at(2)) sample.t += 20'000'000;
+  result::Drive& third = run.drives.at(3);
+  third.resize(third.size() / 2);
+  for (result::DrivenSample& sample : third) sample.t += 3'000'000;
+  std::size_t of_three = 0;
+  std::size_t of_two = 0;
+  for (const auto& [time, update] : messages_of(run, "scene/cars")) {
+    std::size_t driving = 0;
+    for (const auto& [id, drive] : run.drives) {
+      if (result::driven_pose_at(drive, time)) ++driving;
+    }
+    EXPECT_EQ(update.at("entities").size(), driving) << time;
+    if (driving == 3) ++of_three;
+    if (driving == 2) ++of_two;
+  }
+  EXPECT_EQ(of_three, 24U);
+  EXPECT_EQ(of_two, 25U);
 }
 
 /// Of page.css, "#d55e00", as numbers in [0, 1].
@@ -108,21 +131,46 @@ TEST(FoxgloveChannels, EveryStepHasTheWholePlanOfEveryCarAndItsStatus) {
 TEST(FoxgloveChannels, TheMapHasBothBoundsOfEveryLaneAndTheRoutes) {
   const Messages map = messages_of(sample_run(3, 10), "scene/map");
   ASSERT_EQ(map.size(), 1U);
+  EXPECT_EQ(map.front().first, kRecordedFrom);
   const auto& entities = map.front().second.at("entities");
   ASSERT_EQ(entities.size(), 4U);
   EXPECT_EQ(entities.at(0).at("lines").size(), 6U);
   EXPECT_EQ(entities.at(3).at("id"), "route 3");
 }
 
-TEST(FoxgloveChannels, LogLinesHaveTheirTimeIfItIsKnown) {
+TEST(FoxgloveChannels, EveryStepHasTheReportsOfAllCarsInWordsAndTheirSpeeds) {
+  FinishedRun run = sample_run(3, 10);
+  run.drives.erase(3);
+  const Messages steps = messages_of(run, "reports");
+  ASSERT_EQ(steps.size(), 10U);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    EXPECT_EQ(steps[k].first, (*run.facts.first_step + k) * run.facts.period);
+    const auto& reports = steps[k].second.at("reports");
+    ASSERT_EQ(reports.size(), 3U);
+    const bool falls_back = k == kFallsBackIn;
+    EXPECT_EQ(reports[1].at("status"), falls_back ? "fallback" : "planned") << k;
+    EXPECT_EQ(reports[0].at("speed_mps"), run.drives.at(1).at(10 * k).speed_mps);
+    EXPECT_GT(reports[0].at("speed_mps"), 0.0);
+    EXPECT_FALSE(reports[2].contains("speed_mps")) << "nobody knows it";
+  }
+}
+
+TEST(FoxgloveChannels, LogLinesHaveTheirTimeToTheMillisecondOrThatOfTheLineBefore) {
   FinishedRun run = sample_run(1, 10);
-  run.log = {{.process = "middleware_1", .level = "warning", .text = "late", .run_s = 0.5},
-             {.process = "middleware_1", .level = "info", .text = "no time"}};
+  run.log = {{.process = "middleware_1", .level = "info", .text = "no time"},
+             {.process = "middleware_1", .level = "info", .text = "early", .run_s = -2.0},
+             {.process = "middleware_1", .level = "warning", .text = "late", .run_s = 0.5 - 2e-7},
+             {.process = "middleware_1", .text = "its second line"}};
   const Messages log = messages_of(run, "log");
-  ASSERT_EQ(log.size(), 1U);
-  EXPECT_EQ(log.front().first, *run.facts.first_step * run.facts.period + 500'000'000);
-  EXPECT_EQ(log.front().second.at("message"), "late");
-  EXPECT_EQ(log.front().second.at("level"), 3);
+  const Nanoseconds late = *run.facts.first_step * run.facts.period + 500'000'000;
+  const std::vector<Nanoseconds> times{kRecordedFrom, kRecordedFrom, late, late};
+  ASSERT_EQ(log.size(), times.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_EQ(log[i].first, times[i]);
+    EXPECT_EQ(time_of(log[i].second.at("timestamp")), times[i]);
+    EXPECT_EQ(log[i].second.at("message"), run.log[i].text);
+  }
+  EXPECT_EQ(log[2].second.at("level"), 3);
 }
 
 TEST(FoxgloveChannels, ARunThatNeverBeganHasAMapOnly) {
@@ -131,6 +179,7 @@ TEST(FoxgloveChannels, ARunThatNeverBeganHasAMapOnly) {
   EXPECT_EQ(messages_of(run, "scene/map").size(), 1U);
   EXPECT_TRUE(messages_of(run, "scene/cars").empty());
   EXPECT_TRUE(messages_of(run, "scene/plans").empty());
+  EXPECT_TRUE(messages_of(run, "reports").empty());
 }
 
 }  // namespace

@@ -37,6 +37,30 @@ TEST(LiveScene, HasTheMapOnceAndThenOnlyWhatIsNew) {
   EXPECT_EQ(entities[0].at("cubes").at(0).at("pose").at("position").at("x"), 1.5);
 }
 
+/// Whoever connects now, or was too slow, gets the last message of each channel only.
+TEST(LiveScene, EveryMessageHasAllCarsThatAreKnown) {
+  const FinishedRun run = sample_run(3, 3);
+  LiveScene scene(before(run));
+  static_cast<void>(scene.updates());
+  scene.take(VehicleState{.vehicle_id = 1, .create_stamp = 40, .speed_mps = 0.5});
+  scene.take(run.rows[0].record);
+  static_cast<void>(scene.updates());
+  scene.take(VehicleState{.vehicle_id = 2, .create_stamp = 60});
+  scene.take(run.rows[1].record);
+  const std::vector<SceneMessage> updates = scene.updates();
+  ASSERT_THAT(topics_of(updates), ElementsAre("scene/cars", "scene/plans", "reports"));
+  std::vector<std::string> ids;
+  for (const std::size_t i : {0U, 1U}) {
+    const json entities = json::parse(updates[i].text).at("entities");
+    for (const json& entity : entities) ids.push_back(entity.at("id"));
+  }
+  EXPECT_THAT(ids, ElementsAre("car 1", "car 2", "plan 1", "plan 2"));
+  const json reports = json::parse(updates[2].text).at("reports");
+  ASSERT_EQ(reports.size(), 2U);
+  EXPECT_EQ(reports[0].at("speed_mps"), 0.5);
+  EXPECT_TRUE(scene.updates().empty());
+}
+
 TEST(LiveScene, AReportIsShownOnceWithItsPlan) {
   const FinishedRun run = sample_run(2, 3);
   LiveScene scene(before(run));
@@ -53,12 +77,8 @@ TEST(LiveScene, AReportIsShownOnceWithItsPlan) {
   EXPECT_EQ(report.at("step"), run.rows[2].record.report.step.value);
   EXPECT_EQ(report.at("status"), "planned");
   EXPECT_THAT(topics_of(scene.updates()), IsEmpty());
-}
-
-TEST(LiveScene, EveryChannelHasASchemaOfItsType) {
-  for (const SceneChannel& channel : LiveScene::channels()) {
-    EXPECT_EQ(json::parse(channel.schema).at("title"), channel.type);
-  }
+  scene.take(run.rows[0].record);  // late joiners get earlier ones, too
+  EXPECT_THAT(topics_of(scene.updates()), IsEmpty());
 }
 
 }  // namespace

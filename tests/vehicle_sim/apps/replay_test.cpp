@@ -120,9 +120,9 @@ TEST_F(Replay, AForkThatCannotBeWrittenLeavesNothing) {
       "replay " + run().string() + " --from 10 --set priorities=3", "trap '' XFSZ; ulimit -f 60; ");
   EXPECT_EQ(exit_code, 2) << output;
   EXPECT_THAT(output, HasSubstr("one_from_10"));
-  const std::size_t num_entries =
+  const auto num_entries =
       std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
-  EXPECT_EQ(num_entries, 1U) << "the run";
+  EXPECT_EQ(num_entries, 1) << "the run";
 }
 
 TEST_F(Replay, OfARunThatEndedEarlyComparesWhatIsRecorded) {
