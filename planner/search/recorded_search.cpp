@@ -12,7 +12,7 @@ namespace hlc::search {
 void check_can_be_recorded(const SearchOptions& options) {
   if (is_admissible(options.cost_to_go)) return;
   throw std::invalid_argument(
-      fmt::format("cost_to_go = {}, must be reachable or straight_line to be recorded",
+      fmt::format("cost_to_go = {}, must be reachable or straight_line for a search tree",
                   to_string(options.cost_to_go)));
 }
 

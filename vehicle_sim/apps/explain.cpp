@@ -190,8 +190,7 @@ void check_can_be_recorded(const hlc::record::RunFolder& run) {
   try {
     hlc::search::check_can_be_recorded(run.scenario.search);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(
-        fmt::format("{}: {}, for --tree", run.folder.string(), error.what()));
+    throw std::invalid_argument(fmt::format("{}: {}", run.folder.string(), error.what()));
   }
 }
 

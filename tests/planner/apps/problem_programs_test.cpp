@@ -195,7 +195,7 @@ TEST_F(ProblemPrograms, ATreeIsRefusedWhereItCannotBeRecorded) {
            {"--tree " + page + " --engine branch_and_bound",
             "--engine = branch_and_bound with --tree, must be best_first"},
            {"--tree " + page + " --engine best_first --cost_to_go 2022",
-            "cost_to_go = 2022 with --tree, must be reachable or straight_line"},
+            "cost_to_go = 2022, must be reachable or straight_line for a search tree"},
            {"--tree " + page + " --plot " + page, "must be a file other than"},
            {"--tree /nowhere/tree.html", "must be"}}) {
     const Outcome outcome = run_program("plan_problem " + kShipped + " " + flags);
