@@ -102,6 +102,25 @@ TEST_F(Explain, TreeKeepsWhatWasSearchedInTheFolderAndInThePage) {
   EXPECT_EQ(read_file(run() / "run.html").find(R"("kind":"search")"), std::string::npos);
 }
 
+TEST(ExplainTree, OfACostToGoThatIsNoBoundIsRefusedBeforeAnythingIsWritten) {
+  const test::TemporaryFolder folder;
+  const scenario::Scenario scenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml",
+       .profile = "2022"});
+  write_run_folder(folder / "run", scenario, std::nullopt,
+                   closed_loop::drive_experiment(scenario, {.steps = 3}));
+  const std::string run = (folder / "run").string();
+  const std::string problems = (folder / "problems").string();
+  const std::string command = "explain " + run + " --vehicle 1 --step 2 --problems " + problems;
+  const test::Outcome refused = test::run_program(command + " --tree");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.output, "explain: " + run +
+                                ": cost_to_go = 2022, must be reachable or straight_line for a "
+                                "search tree\n");
+  EXPECT_FALSE(fs::exists(problems));
+  EXPECT_EQ(test::run_program(command).exit_code, 0);
+}
+
 TEST_F(Explain, AllWritesTheFirstStepOfEveryHindranceAndThePageWithThem) {
   const test::Outcome outcome = explain("--all");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
