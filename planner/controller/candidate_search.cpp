@@ -125,7 +125,8 @@ std::uint64_t CandidateSearch::warm_up(const search::HorizonProblem& problem) {
 PlanCandidate CandidateSearch::find(search::HorizonProblem problem, const CandidateInputs& inputs,
                                     coordination::Report& report) {
   PlanCandidate candidate;
-  candidate.problems.push_back({std::move(problem), on().subgraph});
+  candidate.problems.push_back(
+      {std::move(problem), on().subgraph, current_.max_expansions(inputs.budget_share)});
   search_with_and_without_drift(current_, inputs, candidate, report);
   if (former_) search_on_former(inputs, candidate, report);
   return candidate;
@@ -178,7 +179,8 @@ void CandidateSearch::search_on_former(const CandidateInputs& inputs, PlanCandid
   // A second search would take as long again: the former subgraph is tried in the next step.
   if (candidate.obstacle == coordination::FallbackReason::kBudget) return;
   candidate.obstacle = coordination::FallbackReason::kNone;
-  candidate.problems.push_back({candidate.problems.front().problem, former_->engine.on().subgraph});
+  candidate.problems.push_back({candidate.problems.front().problem, former_->engine.on().subgraph,
+                                former_->engine.max_expansions(inputs.budget_share)});
   search_with_and_without_drift(former_->engine, inputs, candidate, report);
 }
 

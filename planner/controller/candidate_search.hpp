@@ -22,10 +22,11 @@ struct CandidateInputs {
   std::size_t budget_share{1};  ///< a search may use one expansion in so many of its budget
 };
 
-/// A problem and the subgraph that it was searched on.
+/// A problem, the subgraph that it was searched on, and how far.
 struct SearchedProblem {
   search::HorizonProblem problem;
   std::shared_ptr<const automaton::Subgraph> subgraph;
+  std::size_t max_expansions{};
 };
 
 /// Result of the search for a new plan.

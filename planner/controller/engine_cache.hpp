@@ -29,11 +29,18 @@ class EngineCache {
     engine_.reset();
   }
 
-  /// A search with 1 / `share` of the budget.
+  /// Expansions of 1 / `share` of the budget: a multiple of those after which a search may be
+  /// stopped, unless it is all of it.
+  [[nodiscard]] std::size_t max_expansions(std::size_t share) const {
+    if (share == 1) return search_.max_expansions;
+    return search_.max_expansions / share / search::kExpansionsPerStop * search::kExpansionsPerStop;
+  }
+
+  /// A search with at most so many.
   [[nodiscard]] search::SearchResult search(const search::HorizonProblem& problem,
                                             std::size_t share) {
     if (share == 1) return engine().search(problem);
-    std::size_t left = search_.max_expansions / share / search::kExpansionsPerStop;
+    std::size_t left = max_expansions(share) / search::kExpansionsPerStop;
     return engine().search(problem, [&left] { return left-- == 0; });
   }
 

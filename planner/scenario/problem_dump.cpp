@@ -128,15 +128,17 @@ void ProblemDump::write(const controller::Controller& controller) {
                              std::size_t number) {
     const std::string name = fmt::format("vehicle_{}_step_{:010}_{}_{}.json", options.vehicle.value,
                                          controller.last_step().value, what, number);
-    write_problem_file({.automaton_file = automaton_file_for(searched),
-                        .subgraph = searched.subgraph,
-                        .problem = searched.problem,
-                        .search = options.search},
-                       folder_ / name);
+    ProblemFile file{.automaton_file = automaton_file_for(searched),
+                     .subgraph = searched.subgraph,
+                     .problem = searched.problem,
+                     .search = options.search};
+    file.search.max_expansions = std::max<std::size_t>(searched.max_expansions, 1);
+    write_problem_file(file, folder_ / name);
   };
   std::size_t number = 0;
   for (const search::HorizonProblem& problem : controller.entry_problems()) {
-    write_one({problem, controller.prepared_subgraph().subgraph}, "lane_entry", ++number);
+    write_one({problem, controller.prepared_subgraph().subgraph, options.search.max_expansions},
+              "lane_entry", ++number);
   }
   number = 0;
   for (const controller::SearchedProblem& searched : controller.problems()) {

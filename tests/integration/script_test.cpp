@@ -199,7 +199,8 @@ TEST_F(Scripts, PlanningProblemsOfARunAreSolvedAgainWithTheSameVertices) {
     SCOPED_TRACE(name);
     ChildProcess again({kBin + "/plan_problem", "--json", entry.path().string()},
                        folder_ / "again");
-    ASSERT_EQ(again.wait_for(60s), 0);
+    // On a new subgraph there may be no plan at first: then the former one is searched, too.
+    ASSERT_LE(again.wait_for(60s).value_or(-1), 1);
     const auto json = nlohmann::json::parse(read_text(folder_ / "again"), nullptr, false);
     ASSERT_TRUE(json.is_object()) << read_text(folder_ / "again");
     // What looks for a way into the lanes counts in no report (controller.hpp).

@@ -57,10 +57,11 @@ std::string search_page_of(const hlc::controller::Controller& controller,
                            const std::filesystem::path& automaton_file) {
   if (controller.problems().empty()) return {};
   const hlc::controller::SearchedProblem& searched = controller.problems().back();
-  const hlc::scenario::ProblemFile file{.automaton_file = automaton_file,
-                                        .subgraph = searched.subgraph,
-                                        .problem = searched.problem,
-                                        .search = controller.options().search};
+  hlc::scenario::ProblemFile file{.automaton_file = automaton_file,
+                                  .subgraph = searched.subgraph,
+                                  .problem = searched.problem,
+                                  .search = controller.options().search};
+  file.search.max_expansions = std::max<std::size_t>(searched.max_expansions, 1);
   const hlc::automaton::ReachableSets reachable(*file.subgraph, file.problem.horizon_steps());
   return hlc::plot::search_page(
       file, hlc::search::record_search(*file.subgraph, reachable, file.search, file.problem));

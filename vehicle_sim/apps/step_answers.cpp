@@ -55,9 +55,10 @@ bool is_in_force(const std::vector<const automaton::Maneuver*>& maneuvers,
 
 /// None if the plan in force is not that of the step's last problem, or the cost-to-go is no bound.
 std::optional<ExplainedStep::Choice> choice_of(const Controller& controller) {
-  const search::SearchOptions& options = controller.options().search;
+  search::SearchOptions options = controller.options().search;
   if (!search::is_admissible(options.cost_to_go)) return {};
-  const auto& [problem, subgraph] = controller.problems().back();
+  const auto& [problem, subgraph, max_expansions] = controller.problems().back();
+  options.max_expansions = std::max<std::size_t>(max_expansions, 1);
   const controller::PreparedSubgraph& prepared = controller.prepared_subgraph();
   const controller::PreparedSubgraph on =
       subgraph == prepared.subgraph  // after a switch it may be the one before
