@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <system_error>
@@ -126,9 +128,9 @@ void write_fork(const fs::path& folder, const record::RunFolder& run, std::uint6
                 const std::vector<std::string>& set, const closed_loop::Experiment& experiment) {
   // Whole or not at all, also for a process that is killed: a name that is given when all is there.
   fs::path part = fs::absolute(folder / "").lexically_normal().parent_path();
-  part += ".part";
+  part += fmt::format(".{}.part", getpid());  // nobody else's: it is removed after a failure
   const fs::path first_new = first_new_on_the_way_to(part);
-  fs::remove_all(part);
+  if (fs::exists(part)) throw std::runtime_error(part.string() + ": is there already");
   try {
     copy_files(run.folder / "configuration", part / "configuration");
     std::vector<record::KeptFork> forks = record::kept_forks(run.folder);

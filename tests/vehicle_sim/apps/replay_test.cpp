@@ -116,13 +116,16 @@ TEST_F(Replay, AForkOfARunThatMayOnlyBeReadCanBeChanged) {
 
 // Its map is larger than the largest file that may be written: 60 blocks of 512 bytes.
 TEST_F(Replay, AForkThatCannotBeWrittenLeavesNothing) {
+  const fs::path others = folder_.path() / "one_from_10.part";
+  write_file(others, "of somebody else");
   const auto [exit_code, output] = test::run_program(
       "replay " + run().string() + " --from 10 --set priorities=3", "trap '' XFSZ; ulimit -f 60; ");
   EXPECT_EQ(exit_code, 2) << output;
   EXPECT_THAT(output, HasSubstr("one_from_10"));
   const auto num_entries =
       std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
-  EXPECT_EQ(num_entries, 1) << "the run";
+  EXPECT_EQ(num_entries, 2) << "the run, and what was there";
+  EXPECT_TRUE(fs::exists(others));
 }
 
 TEST_F(Replay, OfARunThatEndedEarlyComparesWhatIsRecorded) {
