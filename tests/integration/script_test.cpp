@@ -25,6 +25,8 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::string kScripts = test::source_folder() + "/launch_scripts/";
+/// Ample: under a sanitizer the programs read maps and automata many times slower.
+const std::string kStartup_s = "120";
 const std::string kBin = test::build_folder() + "/bin";
 
 /// The child of a process that runs this program.
@@ -52,7 +54,8 @@ class Scripts : public testing::Test {
   }
 
   ChildProcess run_lab(std::vector<std::string> flags) {
-    flags.insert(flags.begin(), {kScripts + "run_lab.sh", "--bin", kBin});
+    flags.insert(flags.begin(),
+                 {kScripts + "run_lab.sh", "--bin", kBin, "--startup_timeout_s", kStartup_s});
     return ChildProcess(flags, folder_ / "output");
   }
   [[nodiscard]] std::string output() const { return read_text(folder_ / "output"); }
@@ -62,7 +65,7 @@ class Scripts : public testing::Test {
 
 TEST_F(Scripts, RunLabPrintsTheTableAndLeavesNobodyBehind) {
   ChildProcess run = run_lab({"--steps", "15", "--out", (folder_ / "run").string()});
-  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  ASSERT_EQ(run.wait_for(240s), 0) << output();
   for (const char* word : {"red", "blue", "green", "reference", "lap", "collisions"}) {
     EXPECT_NE(output().find(word), std::string::npos) << word << " in\n" << output();
   }
@@ -76,7 +79,7 @@ TEST_F(Scripts, RunLabPrintsTheTableAndLeavesNobodyBehind) {
 TEST_F(Scripts, RunLabWithAViewPrintsItsAddressAndLeavesNobodyBehind) {
   const std::filesystem::path out = folder_ / "run";
   ChildProcess run = run_lab({"--view", "--steps", "15", "--out", out.string()});
-  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  ASSERT_EQ(run.wait_for(240s), 0) << output();
   EXPECT_EQ(output().find("view: http://127.0.0.1:"), 0U) << output();
   EXPECT_NE(output().find("collisions"), std::string::npos) << output();
   EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
@@ -95,7 +98,7 @@ TEST_F(Scripts, RunLabDrivesEvenIfTheViewFails) {
   ChildProcess run = ChildProcess({kScripts + "run_lab.sh", "--bin", bin.string(), "--view",
                                    "--steps", "15", "--out", (folder_ / "run").string()},
                                   folder_ / "output");
-  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  ASSERT_EQ(run.wait_for(240s), 0) << output();
   EXPECT_NE(output().find("run_lab.sh: no view of this run: view: fails"), std::string::npos)
       << output();
 }
@@ -136,7 +139,7 @@ TEST_F(Scripts, RunLabKeepsTheFlagsThatDriveTheRun) {
   const std::filesystem::path out = folder_ / "run";
   ChildProcess run = run_lab(
       {"--steps", "10", "--noise_seed", "010", "--gains_scale", "0.9", "--out", out.string()});
-  ASSERT_EQ(run.wait_for(120s), 5) << "gains a tenth too small lead out of the margin\n"
+  ASSERT_EQ(run.wait_for(240s), 5) << "gains a tenth too small lead out of the margin\n"
                                    << output();
   const std::string flags = read_text(out / "configuration" / "flags.yaml");
   for (const char* line : {"profile: 'default'", "subgraph: null", "steps: 10", "noise_seed: 10",
@@ -154,7 +157,7 @@ TEST_F(Scripts, DrawnCarsDriveRandomRoutesAndTheDrawIsKept) {
   const std::filesystem::path out = folder_ / "run";
   ChildProcess run = run_lab({"--scenario", "lab_cars", "--cars", "2", "--seed", "03", "--routes",
                               "random", "--steps", "10", "--out", out.string()});
-  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  ASSERT_EQ(run.wait_for(240s), 0) << output();
   const std::string flags = read_text(out / "configuration" / "flags.yaml");
   for (const char* line : {"cars: 2", "seed: 3", "routes: 'random'"}) {
     EXPECT_NE(flags.find(std::string("\n") + line + "\n"), std::string::npos) << line << " in\n"
@@ -188,7 +191,7 @@ TEST_F(Scripts, PlanningProblemsOfARunAreSolvedAgainWithTheSameVertices) {
   ChildProcess run =
       run_lab({"--scenario", "reconfiguration.yaml", "--steps", "10", "--engine", "best_first",
                "--dump-problems", problems.string(), "--out", out.string()});
-  ASSERT_EQ(run.wait_for(120s), 0) << output();
+  ASSERT_EQ(run.wait_for(240s), 0) << output();
   auto expected = searched_vertices(out / "reports.csv");
   EXPECT_GE(expected.size(), 30U);
   std::size_t num_automata = 0;
@@ -254,7 +257,7 @@ TEST_F(Scripts, ProblemsThatCouldNotBeWrittenAreAFailureButHideNone) {
                                 (folder_ / ("run_" + gains_scale)).string()});
     ASSERT_TRUE(eventually(60s, [&] { return has_problem_file(problems); })) << output();
     std::filesystem::rename(problems, problems.string() + "_elsewhere");
-    EXPECT_EQ(run.wait_for(120s), code) << output();
+    EXPECT_EQ(run.wait_for(240s), code) << output();
   }
 }
 
@@ -313,7 +316,7 @@ TEST_P(HungProcess, EndsTheRunWithCode4AndIsNamed) {
   const pid_t hung = pid_of(out, GetParam().process);
   ASSERT_GT(hung, 0);
   ASSERT_EQ(::kill(hung, SIGSTOP), 0);
-  EXPECT_EQ(run.wait_for(120s), 4) << output();
+  EXPECT_EQ(run.wait_for(240s), 4) << output();
   EXPECT_NE(output().find(GetParam().named + " died"), std::string::npos) << output();
   EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
       << "a process of the run is left";
@@ -336,7 +339,7 @@ TEST_F(Scripts, ProcessesThatDieAtOnceEndTheRunWithCode4) {
     ASSERT_GT(pid, 0);
     ASSERT_EQ(::kill(pid, SIGKILL), 0);
   }
-  EXPECT_EQ(run.wait_for(120s), 4) << output();
+  EXPECT_EQ(run.wait_for(240s), 4) << output();
   EXPECT_NE(output().find("middleware_2 died"), std::string::npos) << output();
   EXPECT_TRUE(eventually(60s, [&] { return ::kill(-run.pid(), 0) != 0; }))
       << "a process of the run is left";
@@ -374,7 +377,7 @@ TEST_P(KilledProcess, IsStartedAgainByOneCommandAndTheRunGoesOn) {
   ChildProcess again(command, folder_ / "again");
   // 5: a vehicle was off its plan, as a simulated car is that stood still while it was dead, and as
   // any may be on a busy machine.
-  const std::optional<int> code = run.wait_for(120s);
+  const std::optional<int> code = run.wait_for(240s);
   EXPECT_TRUE(code == 0 || code == 5) << output();
   EXPECT_EQ(again.wait_for(60s), 0) << read_text(folder_ / "again");
   EXPECT_NE(output().find(named + " is back"), std::string::npos) << output();

@@ -17,11 +17,14 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::string kScripts = test::source_folder() + "/launch_scripts/";
+/// Ample: under a sanitizer the programs read maps and automata many times slower.
+const std::string kStartup_s = "120";
 
 class SharedProcesses : public testing::Test {
  protected:
   ChildProcess run_lab(std::vector<std::string> flags) {
-    flags.insert(flags.begin(), {kScripts + "run_lab.sh", "--bin", test::build_folder() + "/bin"});
+    flags.insert(flags.begin(), {kScripts + "run_lab.sh", "--bin", test::build_folder() + "/bin",
+                                 "--startup_timeout_s", kStartup_s});
     return ChildProcess(flags, folder_ / "output");
   }
   ChildProcess restart(const std::string& id, const std::string& only) {
@@ -56,7 +59,7 @@ TEST_F(SharedProcesses, DriveAsThoseOfEveryVehicleDo) {
     const std::filesystem::path folder = folder_ / share;
     ChildProcess run =
         run_lab({"--steps", "40", "--noise_seed", "1", "--share", share, "--out", folder.string()});
-    ASSERT_EQ(run.wait_for(120s), 0) << output();
+    ASSERT_EQ(run.wait_for(240s), 0) << output();
     EXPECT_EQ(std::filesystem::exists(folder / "logs" / "middleware_1-3.log"), share == "machine");
   }
   const Outcome equal =
@@ -80,7 +83,7 @@ TEST_F(SharedProcesses, ThatDieEndTheRunWithCode4AndEveryController) {
     const pid_t pid = pid_of(process);
     ASSERT_GT(pid, 0);
     ASSERT_EQ(::kill(pid, SIGKILL), 0);
-    EXPECT_EQ(run.wait_for(120s), 4) << output();
+    EXPECT_EQ(run.wait_for(240s), 4) << output();
     for (const char* id : {"1", "2", "3"}) {
       const std::string named =
           (process.starts_with("middleware") ? "middleware_" : "vehicle_raspberry_") +
@@ -115,7 +118,7 @@ TEST_F(SharedProcesses, AControllerIsStartedAgainAloneButNothingThatOthersShare)
   })) << output();
   ChildProcess again = restart("2", "hlc");
   // 5: on a busy machine any vehicle may leave its plan.
-  const std::optional<int> code = run.wait_for(120s);
+  const std::optional<int> code = run.wait_for(240s);
   EXPECT_TRUE(code == 0 || code == 5) << output();
   EXPECT_EQ(again.wait_for(60s), 0) << read_text(folder_ / "hlc");
   EXPECT_NE(output().find("high_level_controller_2 is back"), std::string::npos) << output();
