@@ -12,12 +12,14 @@
 #include <string>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/joint_plan.hpp"
 #include "planner/apps/output_files.hpp"
 #include "planner/apps/search_json.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/plot/problem_plot.hpp"
 #include "planner/plot/search_page.hpp"
 #include "planner/scenario/engine_choice.hpp"
+#include "planner/scenario/joint_problem_file.hpp"
 #include "planner/scenario/problem_file.hpp"
 #include "planner/search/recorded_search.hpp"
 #include "planner/search/search_engine.hpp"
@@ -52,8 +54,10 @@ struct Solved {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("file", flags.file,
-                 "planning problem (JSON), as high_level_controller --dump-problems writes it")
+  app.add_option(
+         "file", flags.file,
+         "planning problem (JSON), as high_level_controller --dump-problems writes it, or a "
+         "joint one of several vehicles, as price_of_priority --dump does")
       ->required();
   app.add_option("--automaton", flags.automaton, "instead of the file that the problem names");
   app.add_option(
@@ -61,14 +65,16 @@ void declare(CLI::App& app, Flags& flags) {
       std::string(hlc::scenario::kEngineChoices) + " (default: the file's, else branch_and_bound)");
   app.add_option("--cost_to_go", flags.cost_to_go,
                  "reachable, straight_line or 2022; the last two with best_first");
-  app.add_option("--max_expansions", flags.max_expansions, "budget, at least 1")
+  app.add_option(
+         "--max_expansions", flags.max_expansions,
+         "budget, at least 1; of a joint problem: of all searches together (default 20000000)")
       ->check(hlc::apps::whole(1, hlc::search::SearchOptions::kMostExpansions));
   app.add_flag(
       "--json", flags.json,
       "print one JSON object: status (optimal, budget, unproven, fallback), reason (of a fallback: "
       "infeasible, budget), cost [m^2], lower_bound, gap, trims (n of them, after each "
       "step, from 1), poses ([x, y, psi] after each step), generated, expanded, "
-      "planning_us");
+      "planning_us. Of a joint problem: see planner/apps/joint_plan.hpp");
   hlc::apps::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
   hlc::apps::declare_output(
       app, flags.tree,
@@ -95,16 +101,20 @@ void check_tree_flags(const Flags& flags) {
   }
 }
 
-hlc::scenario::ProblemFile read(const Flags& flags) {
-  hlc::scenario::ProblemFile file = hlc::scenario::read_problem_file(flags.file, flags.automaton);
+/// Engine and cost-to-go of the command line, if given.
+void choose_search(const Flags& flags, hlc::search::SearchOptions& search) {
   try {
-    if (flags.tree.file) hlc::scenario::choose_engine(kTreeEngine, file.search);
-    if (flags.engine) hlc::scenario::choose_engine(*flags.engine, file.search);
-    if (flags.cost_to_go)
-      file.search.cost_to_go = hlc::search::cost_to_go_from_name(*flags.cost_to_go);
+    if (flags.tree.file) hlc::scenario::choose_engine(kTreeEngine, search);
+    if (flags.engine) hlc::scenario::choose_engine(*flags.engine, search);
+    if (flags.cost_to_go) search.cost_to_go = hlc::search::cost_to_go_from_name(*flags.cost_to_go);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string("--") + error.what());
   }
+}
+
+hlc::scenario::ProblemFile read(const Flags& flags) {
+  hlc::scenario::ProblemFile file = hlc::scenario::read_problem_file(flags.file, flags.automaton);
+  choose_search(flags, file.search);
   try {
     if (flags.max_expansions) file.search.max_expansions = *flags.max_expansions;
     if (flags.tree.file) hlc::search::check_can_be_recorded(file.search);
@@ -200,9 +210,39 @@ void write_tree(const hlc::scenario::ProblemFile& file, const std::filesystem::p
                                                     : hlc::apps::search_json(file, recorded));
 }
 
+int run_joint(const Flags& flags) {
+  if (flags.tree.file) {
+    throw std::invalid_argument(fmt::format("--tree = {}, must be absent: {} is a joint problem",
+                                            flags.tree.file->string(), flags.file.string()));
+  }
+  hlc::scenario::JointProblemFile file =
+      hlc::scenario::read_joint_problem_file(flags.file, flags.automaton);
+  choose_search(flags, file.search);
+  hlc::apps::check_output_files({flags.plot}, {flags.file, file.automaton_file});
+  hlc::joint_search::JointSearchOptions options;
+  if (flags.max_expansions) options.max_expansions = *flags.max_expansions;
+  hlc::apps::JointSolution solution;
+  try {
+    hlc::search::check_search_options(file.search);
+    solution = hlc::apps::solve(file, options);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(flags.file.string() + ": " + error.what());
+  }
+  if (flags.json) {
+    std::cout << hlc::apps::json_of(solution) << '\n';
+  } else {
+    hlc::apps::print(file, solution);
+  }
+  if (flags.plot.file) {
+    hlc::write_file(*flags.plot.file, hlc::plot::joint_problem_plot(file, solution.joint));
+  }
+  return solution.joint.plans.empty() ? kExitFallback : 0;
+}
+
 int run(const Flags& flags) {
   check_tree_flags(flags);
   hlc::apps::check_output_files({flags.plot, flags.tree}, {flags.file});
+  if (hlc::scenario::is_joint_problem_file(flags.file)) return run_joint(flags);
   const hlc::scenario::ProblemFile file = read(flags);
   hlc::apps::check_output_files({flags.plot, flags.tree}, {flags.file, file.automaton_file});
   const Solved solved = solve(file);
@@ -221,7 +261,8 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Solves one planning problem from a file.", "plan_problem"};
+  CLI::App app{"Solves one planning problem from a file, or a joint one of several vehicles.",
+               "plan_problem"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;

@@ -5,11 +5,10 @@
 #include <limits>
 
 #include "planner/common/demand.hpp"
+#include "planner/geometry/cross.hpp"
 
 namespace hlc {
 namespace {
-
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Outward normal of a counter-clockwise polygon's edge with this direction.
 Point right_of(const Point& direction) { return {direction.y(), -direction.x()}; }

@@ -44,16 +44,15 @@ void add_surroundings(const search::HorizonProblem& problem, PlotPanel& panel) {
   }
 }
 
-void add_plan(const scenario::ProblemFile& file, const search::SearchResult& result,
-              PlotPanel& panel) {
-  const Footprint& footprint = file.subgraph->automaton().vehicle.footprint;
-  Pose from = file.problem.start;
+void add_plan(const Footprint& footprint, const search::HorizonProblem& problem,
+              const search::SearchResult& result, PlotPanel& panel) {
+  Pose from = problem.start;
   panel.marks.push_back({.at = from.position_m(), .colour = kPlanColour, .mark = Mark::kCross});
   panel.lines.push_back(
       outline(footprint_area(footprint, from, 0.0), kFootprintColour, 1.0, Stroke::kSolid));
   for (std::size_t j = 0; j < result.maneuvers.size(); ++j) {
     panel.lines.push_back(outline(transformed(result.maneuvers[j]->swept_area_m, from),
-                                  colour_of(j, file.problem), 1.2, Stroke::kSolid));
+                                  colour_of(j, problem), 1.2, Stroke::kSolid));
     from = result.poses[j];
     panel.lines.push_back(
         outline(footprint_area(footprint, from, 0.0), kFootprintColour, 1.0, Stroke::kSolid));
@@ -62,24 +61,23 @@ void add_plan(const scenario::ProblemFile& file, const search::SearchResult& res
   }
 }
 
-std::string subtitle(const search::SearchResult& result) {
-  if (result.status == search::SearchStatus::kFallback) {
-    return fmt::format("no plan ({})", search::to_string(result.reason));
-  }
-  return fmt::format("plan: {}, cost {:.4g} m²", search::to_string(result.status), result.cost);
-}
-
-}  // namespace
-
-std::string problem_plot(const scenario::ProblemFile& file, const search::SearchResult& result) {
-  const search::HorizonProblem& problem = file.problem;
+/// Result: of one vehicle or of several.
+template <class Result>
+PlotPanel panel_for(const Result& result) {
   PlotPanel panel;
-  panel.title = subtitle(result);
+  panel.title =
+      result.status == search::SearchStatus::kFallback
+          ? fmt::format("no plan ({})", search::to_string(result.reason))
+          : fmt::format("plan: {}, cost {:.4g} m²", search::to_string(result.status), result.cost);
   panel.x_label = "x [m]";
   panel.y_label = "y [m]";
   panel.equal_scale = true;
-  add_surroundings(problem, panel);
-  add_plan(file, result, panel);
+  return panel;
+}
+
+/// @param problem  one of those that are drawn
+std::string picture(const std::string& title, const search::HorizonProblem& problem,
+                    PlotPanel panel) {
   panel.legend_corner = Corner::kEmptiest;
   const std::string first = colour_of(0, problem);
   const std::string last = colour_of(problem.horizon_steps() - 1, problem);
@@ -93,9 +91,36 @@ std::string problem_plot(const scenario::ProblemFile& file, const search::Search
        .colour = last,
        .radius_px = 0.0},
       {.text = "boundary", .colour = kBoundaryColour, .radius_px = 0.0}};
-  const std::string title = fmt::format("Planning problem: horizon {}, subgraph {}",
-                                        problem.horizon_steps(), file.subgraph->spec().name);
   return svg_of(title, {panel}, 1, {.width_px = 900.0, .height_px = 700.0});
+}
+
+}  // namespace
+
+std::string problem_plot(const scenario::ProblemFile& file, const search::SearchResult& result) {
+  PlotPanel panel = panel_for(result);
+  add_surroundings(file.problem, panel);
+  add_plan(file.subgraph->automaton().vehicle.footprint, file.problem, result, panel);
+  return picture(fmt::format("Planning problem: horizon {}, subgraph {}",
+                             file.problem.horizon_steps(), file.subgraph->spec().name),
+                 file.problem, std::move(panel));
+}
+
+std::string joint_problem_plot(const scenario::JointProblemFile& file,
+                               const joint_search::JointSearchResult& result) {
+  PlotPanel panel = panel_for(result);
+  for (const search::HorizonProblem& problem : file.problems) add_surroundings(problem, panel);
+  for (std::size_t i = 0; i < file.problems.size(); ++i) {
+    const search::SearchResult none;
+    const Footprint& footprint = file.subgraph->automaton().vehicle.footprint;
+    add_plan(footprint, file.problems[i], result.plans.empty() ? none : result.plans[i], panel);
+    const Pose behind{-footprint.length_m, 0.0, 0.0};
+    panel.texts.push_back({.at = compose(file.problems[i].start, behind).position_m(),
+                           .text = std::to_string(i + 1)});
+  }
+  return picture(fmt::format("Joint planning problem: {} vehicles, horizon {}, subgraph {}",
+                             file.problems.size(), file.problems.front().horizon_steps(),
+                             file.subgraph->spec().name),
+                 file.problems.front(), std::move(panel));
 }
 
 }  // namespace hlc::plot

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "planner/joint_search/conflict_based_search.hpp"
+#include "planner/scenario/joint_problem_file.hpp"
 #include "planner/scenario/problem_file.hpp"
 #include "planner/search/horizon_problem.hpp"
 
@@ -14,5 +16,10 @@ namespace hlc::plot {
 /// @param result  may be without a plan
 [[nodiscard]] std::string problem_plot(const scenario::ProblemFile& file,
                                        const search::SearchResult& result);
+
+/// The same of vehicles that are planned jointly: their swept areas of one colour may not meet
+/// either.
+[[nodiscard]] std::string joint_problem_plot(const scenario::JointProblemFile& file,
+                                             const joint_search::JointSearchResult& result);
 
 }  // namespace hlc::plot

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "planner/geometry/cross.hpp"
 #include "vehicle_sim/tracking/trajectory.hpp"
 
 namespace hlc::tracking {
@@ -11,8 +12,6 @@ namespace {
 
 /// A chord of one tick below this (0.02 mm) is rounding, not a direction.
 constexpr double kStandingSpeed_mps = 1e-3;
-
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 

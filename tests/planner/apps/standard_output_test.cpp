@@ -13,7 +13,9 @@ namespace {
 
 const std::string kLaunch = test::source_folder() + "/launch_scripts/";
 const std::string kProblem = kLaunch + "problems/parked_car.json";
+const std::string kJointProblem = kLaunch + "problems/two_at_a_crossing.json";
 const std::string kScenario = kLaunch + "scenarios/paper_red_alone.yaml";
+const std::string kThreeCars = kLaunch + "scenarios/paper_three_cars.yaml";
 
 struct Case {
   std::string command;
@@ -27,6 +29,8 @@ TEST(StandardOutput, WhatIsPrintedOnAFullDeviceIsAFailureInOneLine) {
       {"plan_problem " + kProblem, 2},
       {"plan_problem --json " + kProblem, 2},
       {"plan_problem --help", 2},
+      {"plan_problem " + kJointProblem, 2},
+      {"price_of_priority " + kThreeCars + " --problems 1", 2},
       {"propose_budget " + kScenario + " --steps 3 --engine best_first --deadline_ms 1000", 2},
       {"ompl_example " + kProblem + " --seconds 0.01 --runs 1", 2},
       {"rollout --steps 2 --scenario " + kScenario, 2},

@@ -8,6 +8,9 @@
 #include <numbers>
 #include <random>
 
+#include "planner/geometry/cross.hpp"
+#include "planner/geometry/intersection.hpp"
+
 namespace hlc {
 namespace {
 
@@ -33,17 +36,6 @@ ConvexPolygon random_polygon(Random& random, const Point& centre_m = Point::Zero
   return transformed(convex_hull(points), {0.0, 0.0, uniform(random, -3.0, 3.0)});
 }
 
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double area_m2(const ConvexPolygon& polygon) {
-  double twice = 0.0;
-  const auto& v = polygon.vertices_m;
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    twice += cross(v[i] - v[0], v[(i + 1) % v.size()] - v[0]);
-  }
-  return 0.5 * twice;
-}
-
 /// Random point of the polygon: a convex combination of its vertices, often near a vertex or edge.
 Point random_point_of(const ConvexPolygon& polygon, Random& random) {
   Point point = Point::Zero();
@@ -54,29 +46,6 @@ Point random_point_of(const ConvexPolygon& polygon, Random& random) {
     sum += weight;
   }
   return point / sum;
-}
-
-/// What is left of a polygon inside another, by cutting it along every edge (Sutherland, Hodgman).
-double common_area_m2(ConvexPolygon polygon, const ConvexPolygon& window) {
-  for (std::size_t i = 0; i < window.vertices_m.size(); ++i) {
-    const Point& from = window.vertices_m[i];
-    const Point edge = window.vertices_m[(i + 1) % window.vertices_m.size()] - from;
-    ConvexPolygon::Vertices kept;
-    for (std::size_t j = 0; j < polygon.vertices_m.size(); ++j) {
-      const Point& a = polygon.vertices_m[j];
-      const Point& b = polygon.vertices_m[(j + 1) % polygon.vertices_m.size()];
-      const double side_a = cross(edge, a - from);
-      const double side_b = cross(edge, b - from);
-      if (side_a >= 0.0) {
-        kept.push_back(a);
-      }
-      if (side_a * side_b < 0.0) {
-        kept.push_back(a + side_a / (side_a - side_b) * (b - a));
-      }
-    }
-    polygon.vertices_m = kept;
-  }
-  return polygon.empty() ? 0.0 : area_m2(polygon);
 }
 
 /// Length of the part of a segment inside a polygon, by cutting it along every edge (Cyrus, Beck).
@@ -318,7 +287,7 @@ TEST(Intersects, AgreesWithTheAreaThatTwoPolygonsShare) {
   for (int run = 0; run < 5000; ++run) {
     const ConvexPolygon a = random_polygon(random);
     const ConvexPolygon b = random_polygon(random, random_point(random, 2.0));
-    const bool expected = common_area_m2(a, b) > 0.0;
+    const bool expected = area_m2(intersection(a, b)) > 0.0;
     EXPECT_EQ(intersects(a, b), expected) << "run " << run;
     EXPECT_EQ(intersects(b, a), expected) << "run " << run;
     num_intersecting += expected ? 1 : 0;
@@ -442,6 +411,43 @@ TEST(Distance, HasTheKnownValues) {
   EXPECT_DOUBLE_EQ(distance_m(kSquare, diagonal), 0.5);
   EXPECT_EQ(distance_m(kSquare, kSquare), 0.0);
   EXPECT_TRUE(std::isinf(distance_m(kSquare, ConvexPolygon{})));
+}
+
+TEST(Polygon, IntersectionHoldsThePointsOfBoth) {
+  Random random(21);
+  std::size_t num_shared = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const ConvexPolygon a = random_polygon(random);
+    const ConvexPolygon b = random_polygon(random, random_point(random));
+    const ConvexPolygon shared = intersection(a, b);
+    const Point point_m = random_point(random, 2.0);
+    if (contains(a, point_m, -1e-9) && contains(b, point_m, -1e-9)) {
+      EXPECT_TRUE(contains(shared, point_m, 1e-9)) << i;
+    }
+    EXPECT_NEAR(area_m2(shared), area_m2(intersection(b, a)), 1e-12) << i;
+    EXPECT_NEAR(area_m2(intersection(a, a)), area_m2(a), 1e-12) << i;
+    if (shared.empty()) continue;
+    ++num_shared;
+    for (const Point& corner_m : shared.vertices_m) {
+      EXPECT_TRUE(contains(a, corner_m, 1e-9) && contains(b, corner_m, 1e-9)) << i;
+    }
+    const Point centre_m = centroid_m(shared);
+    EXPECT_TRUE(contains(a, centre_m, 1e-12) && contains(b, centre_m, 1e-12)) << i;
+  }
+  EXPECT_GT(num_shared, 500U);
+}
+
+TEST(Polygon, IntersectionOfATriangleWithASquare) {
+  const ConvexPolygon square{{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}}};
+  const ConvexPolygon triangle{{{1.0, 1.0}, {4.0, 1.0}, {1.0, 4.0}}};
+  EXPECT_NEAR(area_m2(intersection(square, triangle)), 1.0, 1e-12);
+  EXPECT_NEAR(centroid_m(intersection(square, triangle)).x(), 1.5, 1e-12);
+  EXPECT_NEAR(centroid_m(intersection(square, triangle)).y(), 1.5, 1e-12);
+  const ConvexPolygon beside{{{2.0, 0.0}, {3.0, 0.0}, {3.0, 2.0}, {2.0, 2.0}}};
+  EXPECT_TRUE(intersection(square, beside).empty());
+  EXPECT_TRUE(intersection(square, {}).empty());
+  EXPECT_TRUE(intersection({}, square).empty());
+  EXPECT_EQ(area_m2({}), 0.0);
 }
 
 }  // namespace

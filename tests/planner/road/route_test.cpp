@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "planner/geometry/cross.hpp"
 #include "planner/geometry/footprint.hpp"
 #include "planner/road/lab_like_map.hpp"
 #include "tests/support/folders.hpp"
@@ -50,10 +51,8 @@ std::string error_of(const LaneletMap& map, const std::vector<LaneletId>& ids, b
   return "no error";
 }
 
-double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// True if the two pieces cross in their interiors.
-bool cross(const Segment& a, const Segment& b) {
+bool cross_each_other(const Segment& a, const Segment& b) {
   const Point along_a = a.to_m - a.from_m;
   const Point along_b = b.to_m - b.from_m;
   return cross(along_a, b.from_m - a.from_m) * cross(along_a, b.to_m - a.from_m) < 0.0 &&
@@ -64,7 +63,7 @@ bool cross(const Segment& a, const Segment& b) {
 bool separated(const Route& route, double s_m, const Point& point) {
   const Segment sight{.from_m = route.path.at(s_m), .to_m = point};
   for (const Segment& piece : route.corridor.boundary_m(s_m - 0.3, s_m + 0.3)) {
-    if (cross(sight, piece)) {
+    if (cross_each_other(sight, piece)) {
       return true;
     }
   }
@@ -161,7 +160,7 @@ TEST(Route, PieceClosesTheStepWhereANeighbourBeginsOrEnds) {
     const Segment along{.from_m = Point(x - 0.01, -0.2), .to_m = Point(x + 0.01, -0.2)};
     int crossed = 0;
     for (const Segment& piece : route.corridor.boundary_m(1.0 + x, 1.0 + x)) {
-      crossed += cross(along, piece) ? 1 : 0;
+      crossed += cross_each_other(along, piece) ? 1 : 0;
     }
     EXPECT_EQ(crossed, 1) << x;
   }

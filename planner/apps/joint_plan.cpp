@@ -1,0 +1,123 @@
+#include "planner/apps/joint_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/joint_search/prioritized.hpp"
+#include "planner/scenario/engine_choice.hpp"
+#include "planner/search/search_engine.hpp"
+#include "planner/search/search_options.hpp"
+
+namespace hlc::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using joint_search::JointPlan;
+using search::SearchStatus;
+
+Json cost_or_null(const JointPlan& plans) {
+  return plans.empty() ? Json(nullptr) : Json(joint_search::cost_of(plans));
+}
+
+Json to_json(const search::SearchResult& plan) {
+  Json json{{"cost", plan.cost}, {"trims", Json::array()}, {"poses", Json::array()}};
+  for (const automaton::Maneuver* maneuver : plan.maneuvers) {
+    json["trims"].push_back(maneuver->to.index + 1);
+  }
+  for (const Pose& pose : plan.poses) {
+    json["poses"].push_back({pose.x_m, pose.y_m, pose.heading_rad});
+  }
+  return json;
+}
+
+std::string cost_text(const JointPlan& plans) {
+  return plans.empty() ? "no plan" : fmt::format("{:.9g} m^2", joint_search::cost_of(plans));
+}
+
+}  // namespace
+
+JointSolution solve(const scenario::JointProblemFile& file,
+                    const joint_search::JointSearchOptions& options) {
+  if (!search::is_admissible(file.search.cost_to_go)) {
+    throw std::invalid_argument(fmt::format(
+        "cost_to_go = {}, must be reachable or straight_line for a joint problem: its optimum is "
+        "bounded by that of each vehicle",
+        search::to_string(file.search.cost_to_go)));
+  }
+  const std::size_t horizon_steps = file.problems.front().horizon_steps();
+  const automaton::ReachableSets reachable(*file.subgraph, horizon_steps);
+  const auto engine = search::make_search_engine(*file.subgraph, reachable, file.search);
+  joint_search::JointProblem problem;
+  for (const search::HorizonProblem& one : file.problems) {
+    problem.push_back({.problem = one, .engine = engine.get()});
+  }
+  JointSolution solution;
+  solution.alone = joint_search::plan_alone(problem);
+  solution.constant_order =
+      joint_search::plan_in_order(problem, joint_search::constant_order(problem.size()));
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  solution.best_order = joint_search::plan_in_best_order(problem);
+  solution.joint = joint_search::search_jointly(problem, options, solution.best_order);
+  solution.planning_us = std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
+  return solution;
+}
+
+std::string json_of(const JointSolution& solution) {
+  const joint_search::JointSearchResult& joint = solution.joint;
+  const bool has_plan = !joint.plans.empty();
+  Json json;
+  json["status"] = search::to_string(joint.status);
+  json["reason"] = search::to_string(joint.reason);
+  json["cost"] = has_plan ? Json(joint.cost) : Json(nullptr);
+  json["lower_bound"] = has_plan ? Json(joint.lower_bound) : Json(nullptr);
+  json["gap"] = has_plan ? Json(joint.cost - joint.lower_bound) : Json(nullptr);
+  json["alone"] = cost_or_null(solution.alone);
+  json["constant_order"] = cost_or_null(solution.constant_order);
+  json["best_order"] = cost_or_null(solution.best_order);
+  json["vehicles"] = Json::array();
+  for (const search::SearchResult& plan : joint.plans) json["vehicles"].push_back(to_json(plan));
+  json["nodes"] = joint.nodes;
+  json["expanded"] = joint.expanded;
+  json["planning_us"] = solution.planning_us;
+  return json.dump();
+}
+
+void print(const scenario::JointProblemFile& file, const JointSolution& solution) {
+  const joint_search::JointSearchResult& joint = solution.joint;
+  fmt::print("vehicles         {}, engine {}, at most {} expansions in each of their searches\n",
+             file.problems.size(), scenario::engine_name(file.search), file.search.max_expansions);
+  const bool has_plan = !joint.plans.empty();
+  fmt::print("status           {}{}\n", search::to_string(joint.status),
+             has_plan ? "" : fmt::format(": {}", search::to_string(joint.reason)));
+  fmt::print("alone            {}, without each other\n", cost_text(solution.alone));
+  fmt::print("in this order    {}, each around those before it\n",
+             cost_text(solution.constant_order));
+  fmt::print("best order       {}\n", cost_text(solution.best_order));
+  if (has_plan) {
+    fmt::print("jointly          {:.9g} m^2, {}\n", joint.cost,
+               joint.status == SearchStatus::kOptimal
+                   ? "no joint plan costs less"
+                   : fmt::format("one that costs up to {:.9g} m^2 less may exist",
+                                 joint.cost - joint.lower_bound));
+  }
+  fmt::print("joint search     {} nodes, {} vertices expanded, {:.1f} us with the best order\n",
+             joint.nodes, joint.expanded, solution.planning_us);
+  if (!has_plan) return;
+  fmt::print("\n{:>7}  {:>12}  {:>14}  trims after each step\n", "vehicle", "cost [m^2]",
+             "alone [m^2]");
+  for (std::size_t i = 0; i < joint.plans.size(); ++i) {
+    std::string trims;
+    for (const automaton::Maneuver* maneuver : joint.plans[i].maneuvers) {
+      trims += fmt::format(" {}", maneuver->to.index + 1);
+    }
+    fmt::print("{:>7}  {:>12.6f}  {:>14.6f} {}\n", i + 1, joint.plans[i].cost,
+               solution.alone[i].cost, trims);
+  }
+}
+
+}  // namespace hlc::apps
