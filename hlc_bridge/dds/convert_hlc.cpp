@@ -191,7 +191,7 @@ bool is_valid(const ReportMessage& wire) {
          is_known(static_cast<coordination::PlanQuality>(wire.quality())) &&
          is_finite(pose_from_wire(wire.planned_pose())) && wire.maneuver().size() <= kMaxText &&
          wire.subgraph().size() <= kMaxText &&
-         all_finite(wire.cost_m2(), wire.gap_m2(), wire.deviation_m()) &&
+         all_finite(wire.cost_m2(), wire.gap_m2(), wire.bound_m2(), wire.deviation_m()) &&
          is_valid(wire.coupled()) && is_valid(wire.missing()) && is_valid(wire.waits_for()) &&
          is_valid(wire.blocked_by()) && wire.waits_since() <= wire.step() && has_valid_plan(wire) &&
          is_near(wire.held_place_m()) && is_near(wire.held_ahead_m());
@@ -300,8 +300,8 @@ Incoming<coordination::Outcome> from_wire(const OutcomeMessage& wire) {
 void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns, response_ns] = message;
   const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,
-               cost_m2, quality, gap_m2, generated, expanded, level, coupled, missing, deviation_m,
-               waiting, blocked_by, plan, held] = report;
+               cost_m2, quality, gap_m2, bound_m2, generated, expanded, level, coupled, missing,
+               deviation_m, waiting, blocked_by, plan, held] = report;
   const auto& [waits_for, waits_since] = waiting;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
@@ -314,6 +314,8 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   wire.cost_m2(cost_m2);
   wire.quality(static_cast<std::uint8_t>(quality));
   wire.gap_m2(gap_m2);
+  wire.has_bound(bound_m2.has_value());
+  wire.bound_m2(bound_m2.value_or(0.0));
   wire.generated(generated);
   wire.expanded(expanded);
   wire.level(level);
@@ -356,6 +358,7 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
       .cost_m2 = wire.cost_m2(),
       .quality = static_cast<coordination::PlanQuality>(wire.quality()),
       .gap_m2 = wire.gap_m2(),
+      .bound_m2 = wire.has_bound() ? std::optional(wire.bound_m2()) : std::nullopt,
       .generated = wire.generated(),
       .expanded = wire.expanded(),
       .level = wire.level(),

@@ -260,6 +260,7 @@ void HlcMachine::finish(ReportRecord record, const Instant& now) {
 bool HlcMachine::report() {
   coordination::Report& report = current_.record.report;
   core_.controller().note_causes(report);
+  core_.controller().note_bound(report);
   if (current_.is_running) {
     notes_.note_step(controller(), report, actions_);
     if (step_.two_rounds() != nullptr) {

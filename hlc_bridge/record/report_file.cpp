@@ -21,7 +21,7 @@ constexpr std::string_view kHeading =
     "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,cost_m2,"
     "quality,gap_m2,generated,expanded,level,coupled,missing,deviation_m,planning_ns,deadline_"
     "missed,late_ns,maneuver,subgraph,waits_for,waits_since,response_ns,blocked_by,plan,"
-    "held_route,held_place_m,held_ahead_m";
+    "held_route,held_place_m,held_ahead_m,bound_m2";
 
 constexpr char kEscape = '\\';
 
@@ -76,7 +76,7 @@ std::string line(const ReportRecord& record) {
                  ids_to_text(report.waiting.vehicles), report.waiting.since.value,
                  record.response_ns, ids_to_text(report.blocked_by), plan_text(report.plan),
                  held(&coordination::HeldRoad::route), held(&coordination::HeldRoad::place_m),
-                 held(&coordination::HeldRoad::ahead_m))
+                 held(&coordination::HeldRoad::ahead_m), report.bound_m2)
       .text();
 }
 
@@ -105,6 +105,11 @@ class RowReader {
   RowReader(const CsvTable& table, std::size_t row) : table_{table}, row_{row} {}
 
   double number() { return table_.number(row_, column_++); }
+  std::optional<double> optional_number() {
+    if (!table_.text(row_, column_).empty()) return number();
+    ++column_;
+    return std::nullopt;
+  }
   const std::string& text() { return table_.text(row_, column_++); }
   std::uint64_t whole(std::uint64_t least = 0, std::uint64_t most = ~std::uint64_t{0}) {
     const std::uint64_t value = table_.unsigned_number(row_, column_);
@@ -207,6 +212,7 @@ ReportRecord read_row(RowReader row) {
   report.blocked_by = row.ids();
   report.plan = row.plan();
   report.held = row.held();
+  report.bound_m2 = row.optional_number();
   return record;
 }
 

@@ -1,5 +1,6 @@
 #include "hlc_bridge/record/summary_file.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace hlc::record {
@@ -11,6 +12,19 @@ constexpr double kMillimetresPerMetre = 1e3;
 constexpr double kMillisecondsPerSecond = 1e3;
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+/// JSON has no infinity.
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json joint_gap_json(const std::optional<coordination::JointGapFigures>& figures) {
+  if (!figures) return nullptr;
+  return {{"known", figures->known},
+          {"unknown", figures->unknown},
+          {"closed", figures->closed},
+          {"median", finite_or_null(figures->median)},
+          {"p99", finite_or_null(figures->p99)},
+          {"total", finite_or_null(figures->total)}};
+}
 
 /// The named figures of a sample, all null if it is empty.
 Json figures(const std::optional<result::Statistics>& value, double factor,
@@ -102,6 +116,7 @@ std::string summary_json(const result::RunSummary& summary) {
   json["policy"] = run.policy;
   json["longest_wait_s"] = result::longest_wait_s(summary);
   json["stuck_vehicles"] = numbers(result::stuck_vehicles(summary));
+  json["joint_gap"] = joint_gap_json(summary.joint_gap);
   json["rounds"] = run.has_two_rounds ? "two" : "sequential";
   return json.dump(2) + "\n";
 }

@@ -1,9 +1,11 @@
 #include "hlc_bridge/result/run_summary.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/result/encounters.hpp"
+#include "hlc_bridge/result/joint_gaps.hpp"
 #include "hlc_bridge/result/planned_motion.hpp"
 #include "hlc_bridge/result/trace_hash.hpp"
 #include "planner/automaton/deviation.hpp"
@@ -220,6 +222,14 @@ std::optional<Statistics> response_s(std::span<const StepRecord> rows) {
   return statistics(times_s);
 }
 
+std::vector<coordination::JointGap> all_joint_gaps(std::span<const StepRecord> rows) {
+  std::vector<coordination::JointGap> all;
+  for (auto& [step, gaps] : joint_gaps_by_step(rows)) {
+    std::ranges::copy(gaps, std::back_inserter(all));
+  }
+  return all;
+}
+
 }  // namespace
 
 RunSummary summarize(const RunDescription& description, const RunFacts& facts,
@@ -232,6 +242,7 @@ RunSummary summarize(const RunDescription& description, const RunFacts& facts,
   }
   summary.generated_vertices_sum_max = largest_sum(rows, &coordination::Report::generated);
   summary.expanded_vertices_sum_max = largest_sum(rows, &coordination::Report::expanded);
+  summary.joint_gap = coordination::joint_gap_figures(all_joint_gaps(rows));
   if (facts.first_step) {
     const Encounters close =
         encounters(description.vehicles, drives, *facts.first_step * facts.period,

@@ -8,6 +8,7 @@
 #include "hlc_bridge/result/run_record.hpp"
 #include "hlc_bridge/result/statistics.hpp"
 #include "hlc_bridge/result/waits.hpp"
+#include "planner/coordination/joint_gap.hpp"
 
 namespace hlc::result {
 
@@ -55,7 +56,8 @@ struct RunSummary {
   std::vector<VehicleSummary> vehicles;      ///< in the scenario's order
   std::size_t generated_vertices_sum_max{};  ///< largest sum over all vehicles in one step
   std::size_t expanded_vertices_sum_max{};
-  std::optional<double> min_footprint_distance_m;  ///< driven; none with one vehicle
+  std::optional<coordination::JointGapFigures> joint_gap;  ///< none: no gap is known
+  std::optional<double> min_footprint_distance_m;          ///< driven; none with one vehicle
   std::size_t collisions{};
   double wall_s{};
   double realtime_factor{};  ///< time of the run / wall_s

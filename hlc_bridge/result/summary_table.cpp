@@ -75,6 +75,30 @@ std::string waiting_lines(const RunSummary& summary) {
   return text;
 }
 
+/// What is to be known of the plans, if anything is.
+std::string planning_lines(const RunSummary& summary) {
+  std::string text;
+  std::size_t undrivable = 0;
+  for (const VehicleSummary& vehicle : summary.vehicles) undrivable += vehicle.undrivable_steps;
+  if (undrivable > 0) {
+    text += fmt::format("  commands not sent: beyond the lab's limits   {}\n", undrivable);
+  }
+  double budget_share = 0.0;
+  for (const VehicleSummary& vehicle : summary.vehicles) {
+    budget_share = std::max(budget_share, vehicle.budget_share.value_or(0.0));
+  }
+  if (budget_share > 0.0) {
+    text += fmt::format(
+        "  plans cut off by the search's budget         up to {:.1f} % of a vehicle's\n",
+        100.0 * budget_share);
+  }
+  if (summary.joint_gap) {
+    text += fmt::format("  new plans of coupled vehicles, together      {}\n",
+                        coordination::text_of(*summary.joint_gap));
+  }
+  return text;
+}
+
 std::string legend(const RunSummary& summary) {
   std::string text =
       "\nMeans are followed by standard deviations in parentheses, or by \"/\" and the maximum.\n"
@@ -123,20 +147,7 @@ std::string summary_table(const RunSummary& summary) {
           ? fmt::format("{:.1f} mm", *summary.min_footprint_distance_m * kMillimetresPerMetre)
           : "-",
       summary.collisions);
-  std::size_t undrivable = 0;
-  for (const VehicleSummary& vehicle : summary.vehicles) undrivable += vehicle.undrivable_steps;
-  if (undrivable > 0) {
-    text += fmt::format("  commands not sent: beyond the lab's limits   {}\n", undrivable);
-  }
-  double budget_share = 0.0;
-  for (const VehicleSummary& vehicle : summary.vehicles) {
-    budget_share = std::max(budget_share, vehicle.budget_share.value_or(0.0));
-  }
-  if (budget_share > 0.0) {
-    text += fmt::format(
-        "  plans cut off by the search's budget         up to {:.1f} % of a vehicle's\n",
-        100.0 * budget_share);
-  }
+  text += planning_lines(summary);
   text += waiting_lines(summary);
   if (summary.response_s) {
     text += fmt::format(

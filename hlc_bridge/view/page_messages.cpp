@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <utility>
 
+#include "hlc_bridge/result/joint_gaps.hpp"
 #include "hlc_bridge/view/page_parts.hpp"
 #include "hlc_bridge/view/step_messages.hpp"
 
@@ -20,14 +22,26 @@ std::vector<const result::StepRecord*> rows_of(VehicleId vehicle, const Finished
   return rows;
 }
 
+/// How far the plans of each vehicle and those coupled with it are from their joint optimum.
+std::map<VehicleId, StepMessages::Together> together_by_vehicle(const FinishedRun& run) {
+  std::map<VehicleId, StepMessages::Together> together;
+  for (const auto& [step, gaps] : result::joint_gaps_by_step(run.rows)) {
+    for (const coordination::JointGap& gap : gaps) {
+      for (const VehicleId vehicle : gap.vehicles) together[vehicle][step] = text_of(gap);
+    }
+  }
+  return together;
+}
+
 /// Messages `maneuvers` and, per vehicle that reported, `steps`.
 void add_steps(const FinishedRun& run, Json& messages) {
   StepMessages encoder(run.description);
   Json steps = Json::array();
+  std::map<VehicleId, StepMessages::Together> together = together_by_vehicle(run);
   for (const result::VehicleDescription& vehicle : run.description.vehicles) {
     const std::vector<const result::StepRecord*> rows = rows_of(vehicle.id, run);
     if (rows.empty() || !takes_part(vehicle.id, run.facts)) continue;
-    steps.push_back(encoder.of(vehicle.id, rows));
+    steps.push_back(encoder.of(vehicle.id, rows, together[vehicle.id]));
   }
   messages.push_back(encoder.new_maneuvers());
   for (Json& message : steps) messages.push_back(std::move(message));

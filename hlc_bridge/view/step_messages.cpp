@@ -51,7 +51,7 @@ class StepColumns {
   explicit StepColumns(const right_of_way::ConflictMap* conflicts) : conflicts_(conflicts) {}
 
   /// @param plan  numbers of its maneuvers
-  void add(const result::StepRecord& row, const Numbers& plan) {
+  void add(const result::StepRecord& row, const Numbers& plan, const std::string& together) {
     const coordination::Report& report = row.record.report;
     k_.add(static_cast<std::int64_t>(row.step));
     poses_.add(report.planned_pose);
@@ -68,6 +68,7 @@ class StepColumns {
     put("waits_for", sets_.number_of(numbers_of(report.waiting.vehicles)));
     put("blocked_by", sets_.number_of(numbers_of(report.blocked_by)));
     put("waits_since", result::waits_since(row).value_or(0));
+    put("together", names_.number_of(together));
     put("level", report.level);
     put("generated", report.generated);
     put("expanded", report.expanded);
@@ -119,7 +120,8 @@ Json column_tables() {
   return {{"status", "statuses"}, {"reason", "reasons"}, {"quality", "qualities"},
           {"label", "names"},     {"subgraph", "names"}, {"coupled", "sets"},
           {"missing", "sets"},    {"waits_for", "sets"}, {"blocked_by", "sets"},
-          {"plan", "sets"},       {"held", "sets"},      {"plan_labels", "names"}};
+          {"plan", "sets"},       {"held", "sets"},      {"plan_labels", "names"},
+          {"together", "names"}};
 }
 
 Json column_units() {
@@ -130,7 +132,8 @@ Json column_units() {
           {"late_s", kUnit_s}};
 }
 
-Json StepMessages::of(VehicleId vehicle, std::span<const result::StepRecord* const> rows) {
+Json StepMessages::of(VehicleId vehicle, std::span<const result::StepRecord* const> rows,
+                      const Together& together) {
   StepColumns columns(conflicts_.get());
   for (const result::StepRecord* row : rows) {
     Numbers plan;
@@ -140,7 +143,8 @@ Json StepMessages::of(VehicleId vehicle, std::span<const result::StepRecord* con
         plan.push_back(static_cast<int>(maneuvers_.number_of(maneuver)));
       }
     }
-    columns.add(*row, plan);
+    const auto found = together.find(row->step);
+    columns.add(*row, plan, found == together.end() ? "" : found->second);
   }
   return columns.json(vehicle);
 }

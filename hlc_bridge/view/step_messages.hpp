@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -38,9 +39,14 @@ class StepMessages {
   explicit StepMessages(const result::RunDescription& run)
       : subgraph_(run.automaton), conflicts_(run.conflicts) {}
 
+  /// By step: a text about the plans of several vehicles together.
+  using Together = std::map<std::uint64_t, std::string>;
+
   /// Message `steps`.
-  /// @param rows  of that vehicle, by step
-  [[nodiscard]] Json of(VehicleId vehicle, std::span<const result::StepRecord* const> rows);
+  /// @param rows      of that vehicle, by step
+  /// @param together  about that vehicle and those that it is coupled with
+  [[nodiscard]] Json of(VehicleId vehicle, std::span<const result::StepRecord* const> rows,
+                        const Together& together = {});
 
   /// Message `maneuvers`: those that `of` numbered since the last call.
   [[nodiscard]] Json new_maneuvers();

@@ -115,8 +115,9 @@ void print(const scenario::JointProblemFile& file, const JointSolution& solution
     for (const automaton::Maneuver* maneuver : joint.plans[i].maneuvers) {
       trims += fmt::format(" {}", maneuver->to.index + 1);
     }
-    fmt::print("{:>7}  {:>12.6f}  {:>14.6f} {}\n", i + 1, joint.plans[i].cost,
-               solution.alone[i].cost, trims);
+    // Without the others a search may use up a budget that suffices with them.
+    fmt::print("{:>7}  {:>12.6f}  {:>14} {}\n", i + 1, joint.plans[i].cost,
+               solution.alone.empty() ? "-" : fmt::format("{:.6f}", solution.alone[i].cost), trims);
   }
 }
 

@@ -21,6 +21,7 @@
 #include "planner/joint_search/prioritized.hpp"
 #include "planner/rollout/joint_draws.hpp"
 #include "planner/scenario/joint_problem_file.hpp"
+#include "planner/search/search_options.hpp"
 
 namespace {
 
@@ -269,6 +270,11 @@ int run(const Flags& flags) {
   const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(flags.scenario);
   check_dump(flags.dump);
   hlc::search::SearchOptions search = scenario.search;
+  if (!hlc::search::is_admissible(search.cost_to_go)) {
+    throw std::invalid_argument(fmt::format(
+        "--profile = {}, must be one with an admissible cost-to-go: its plans have no bound",
+        flags.scenario.profile));
+  }
   search.max_expansions = kVehicleExpansions;
   hlc::rollout::JointDraws draws(scenario, search, flags.seed);
   Comparison comparison(flags);

@@ -2,10 +2,12 @@
 // process, with vehicles that follow their plans perfectly. For a quick check of a scenario.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/coordination/joint_gap.hpp"
 #include "planner/road/lap.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -110,6 +113,13 @@ void lose_messages(hlc::rollout::Rollout& rollout, const Choices& choices) {
   });
 }
 
+std::vector<hlc::coordination::JointGap> gaps_of(
+    const std::vector<hlc::coordination::Report>& reports) {
+  std::vector<const hlc::coordination::Report*> pointers;
+  for (const hlc::coordination::Report& report : reports) pointers.push_back(&report);
+  return hlc::coordination::joint_gaps(pointers);
+}
+
 int run(const Choices& choices) {
   const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices.scenario);
   const double step_s = scenario.subgraph->automaton().step_s;
@@ -120,6 +130,7 @@ int run(const Choices& choices) {
   const hlc::automaton::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
   const auto alone =
       hlc::search::make_search_engine(*scenario.subgraph, reachable, scenario.search);
+  std::vector<hlc::coordination::JointGap> gaps;
   std::chrono::steady_clock::duration wall{};
   for (std::size_t i = 0; i < scenario.steps; ++i) {
     const auto begin = std::chrono::steady_clock::now();
@@ -128,10 +139,12 @@ int run(const Choices& choices) {
     for (std::size_t j = 0; j < reports.size(); ++j) {
       hlc::coordination::Report& report = reports[j];
       rollout.controllers()[j]->note_causes(report);
+      rollout.controllers()[j]->note_bound(report);
       Tally& tally = tallies[report.vehicle];
       add(tally, report, step_s);
       if (others_changed_the_plan(*rollout.controllers()[j], *alone, report)) ++tally.changed;
     }
+    std::ranges::copy(gaps_of(reports), std::back_inserter(gaps));
   }
   const double wall_ms = 1e3 * std::chrono::duration<double>(wall).count();
 
@@ -148,6 +161,10 @@ int run(const Choices& choices) {
                 hlc::coordination::waiting_text(tally.last, step_s).c_str());
   }
   print_all(tallies, scenario.steps, step_s);
+  if (const auto figures = hlc::coordination::joint_gap_figures(gaps)) {
+    std::printf("new plans of coupled vehicles, together: %s\n",
+                hlc::coordination::text_of(*figures).c_str());
+  }
   std::printf("%zu steps in %.1f ms\n", scenario.steps, wall_ms);
   return 0;
 }

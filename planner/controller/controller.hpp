@@ -168,6 +168,9 @@ class Controller {
   /// stands or no plan was found. A late step is not examined: the waiting of the step before
   /// lasts.
   void note_causes(coordination::Report& report);
+  /// Likewise: enters Report::bound_m2. Searches once if the vehicle has planned around the new
+  /// plans of others, with the budget of a search that makes room.
+  void note_bound(coordination::Report& report);
 
   /// Valid after `couple`: the senders that the phases need.
   [[nodiscard]] const std::vector<VehicleId>& predecessors() const { return step_.predecessors; }

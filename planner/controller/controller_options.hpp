@@ -36,16 +36,24 @@ using IncumbentRule = std::vector<const automaton::Maneuver*> (*)(
 struct CoordinationRule {
   coordination::CommitRule commit;
   CoupledObstacleRule obstacles;
+  /// What of these remains whatever new plans the others make: for the bound of
+  /// coordination/joint_gap.hpp.
+  CoupledObstacleRule lasting_obstacles;
   bool makes_room{};
   friend bool operator==(const CoordinationRule&, const CoordinationRule&) = default;
 };
 
 inline constexpr CoordinationRule kStrictCoordination{.commit = coordination::kStrictCommit,
-                                                      .obstacles = &old_and_new_plans};
-inline constexpr CoordinationRule kCooperativeCoordination{
-    .commit = coordination::kStrictCommit, .obstacles = &old_and_new_plans, .makes_room = true};
+                                                      .obstacles = &old_and_new_plans,
+                                                      .lasting_obstacles = &old_plans};
+inline constexpr CoordinationRule kCooperativeCoordination{.commit = coordination::kStrictCommit,
+                                                           .obstacles = &old_and_new_plans,
+                                                           .lasting_obstacles = &old_plans,
+                                                           .makes_room = true};
 inline constexpr CoordinationRule kAgreedCoordination{
-    .commit = coordination::kAgreedCommit, .obstacles = &predictions_and_standing_successors};
+    .commit = coordination::kAgreedCommit,
+    .obstacles = &predictions_and_standing_successors,
+    .lasting_obstacles = &no_plans};
 
 /// The rules by which a controller plans and coordinates. All vehicles of a run need the same.
 struct ControllerStrategies {

@@ -126,6 +126,23 @@ std::optional<coordination::OccupiedAreas> Controller::desired_areas() {
   return in_force_->areas_of(plan_of(result.maneuvers), step_.next());
 }
 
+void Controller::note_bound(coordination::Report& report) {
+  report.bound_m2.reset();
+  if (report.status != coordination::StepStatus::kPlanned) return;
+  HLC_DEMAND(!problems().empty());
+  const SearchedProblem& own = problems().back();
+  if (own.subgraph != prepared_subgraph().subgraph) return;  // found on the former one
+  const search::HorizonProblem relaxed = with_reference_of(
+      pose_problem(options_.strategies.coordination.lasting_obstacles), own.problem);
+  if (relaxed.obstacles_m == own.problem.obstacles_m && !own.problem.avoids_steering_limit) {
+    report.bound_m2 = report.cost_m2 - report.gap_m2;
+    return;
+  }
+  // A search that stops early has a bound, too.
+  const search::SearchResult result = search_.search(relaxed, kMakingRoomShare);
+  if (!result.maneuvers.empty()) report.bound_m2 = result.lower_bound;
+}
+
 PlanWithout Controller::plan_without(const LeftOut& left_out) const {
   return Controller(*this).search_again(left_out);
 }

@@ -25,6 +25,13 @@ void predictions_and_standing_successors(const CoupledVehicle& other, StepIndex 
   if (!other.is_predecessor && stands) areas_m.push_back(running.during(step));
 }
 
+void old_plans(const CoupledVehicle& other, StepIndex step, std::vector<ConvexPolygon>& areas_m) {
+  areas_m.push_back(other.traffic->running.during(step));
+}
+
+void no_plans(const CoupledVehicle& /*other*/, StepIndex /*step*/,
+              std::vector<ConvexPolygon>& /*areas_m*/) {}
+
 std::vector<std::vector<ConvexPolygon>> obstacles_m(
     std::span<const CoupledVehicle> coupled, CoupledObstacleRule coupled_rule,
     std::span<const MissingVehicle> missing, const coordination::MissingVehicleRules& missing_rules,

@@ -33,6 +33,11 @@ void old_and_new_plans(const CoupledVehicle& other, StepIndex step,
 void predictions_and_standing_successors(const CoupledVehicle& other, StepIndex step,
                                          std::vector<ConvexPolygon>& areas_m);
 
+/// What remains of them if the new plans of predecessors are left out: under `strict` the running
+/// plan, under `agreed` nothing, since a standing vehicle may plan to drive off, too.
+void old_plans(const CoupledVehicle& other, StepIndex step, std::vector<ConvexPolygon>& areas_m);
+void no_plans(const CoupledVehicle& other, StepIndex step, std::vector<ConvexPolygon>& areas_m);
+
 /// A vehicle without received traffic. Not owned.
 struct MissingVehicle {
   const coordination::MeasuredVehicle* measured{};

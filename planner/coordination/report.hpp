@@ -81,7 +81,11 @@ struct Report {
   /// that is held up with right of way, one that ends where it can get to; 0 if none.
   double cost_m2{};
   PlanQuality quality{PlanQuality::kNone};
-  double gap_m2{};            ///< of that plan: its cost minus a lower bound of every plan's; or 0
+  double gap_m2{};  ///< of that plan: its cost minus a lower bound of every plan's; or 0
+  /// Whatever new plans the other vehicles make, none of this vehicle costs less [m^2]
+  /// (joint_gap.hpp), for the same reference. None: the new plan did not come into force, or it was
+  /// found on the subgraph before a switch.
+  std::optional<double> bound_m2{};
   std::uint64_t generated{};  ///< vertices
   std::uint64_t expanded{};
   std::uint32_t level{};           ///< computation level, 0 plans first

@@ -104,7 +104,7 @@ class ConflictBasedSearch {
 
  private:
   [[nodiscard]] bool is_worth_it(double bound_m2) const {
-    return bound_m2 < best_m2_ - kLeastGain * std::abs(best_m2_) || best_m2_ == kInfinity;
+    return best_m2_ == kInfinity || bound_m2 < best_m2_ - kLeastGain * best_m2_;
   }
 
   void take(JointPlan plans) {
@@ -174,6 +174,8 @@ class ConflictBasedSearch {
     child.constraints[vehicle] = std::make_shared<const Constraint>(Constraint{
         .step = conflict.step, .point_m = conflict.point_m, .before = node.constraints[vehicle]});
     child.plans[vehicle] = plan(vehicle, child.constraints[vehicle].get(), {});
+    const auto& areas_m = child.plans[vehicle]->areas_m;  // otherwise the search would not end
+    HLC_DEMAND(areas_m.empty() || !contains(areas_m[conflict.step], conflict.point_m));
     double sum_m2 = 0.0;
     for (const auto& one : child.plans) sum_m2 += one->bound_m2;
     // A search that uses up its budget may know less than the one before it.
@@ -212,12 +214,8 @@ class ConflictBasedSearch {
 
   [[nodiscard]] static bool meets_any(
       const VehiclePlan& plan, const std::vector<std::shared_ptr<const VehiclePlan>>& others) {
-    return std::ranges::any_of(others, [&](const auto& other) {
-      for (std::size_t j = 0; j < plan.areas_m.size(); ++j) {
-        if (shared_point_m(plan.areas_m[j], other->areas_m[j])) return true;
-      }
-      return false;
-    });
+    return std::ranges::any_of(
+        others, [&](const auto& other) { return meet(plan.areas_m, other->areas_m); });
   }
 
   [[nodiscard]] std::shared_ptr<const VehiclePlan> plan(
@@ -228,11 +226,7 @@ class ConflictBasedSearch {
     for (; constraint != nullptr; constraint = constraint->before.get()) {
       problem.obstacles_m[constraint->step].push_back(forbidden_area(constraint->point_m));
     }
-    for (const auto& other : others) {
-      for (std::size_t j = 0; j < other->areas_m.size(); ++j) {
-        problem.obstacles_m[j].push_back(other->areas_m[j]);
-      }
-    }
+    for (const auto& other : others) add_obstacles(other->areas_m, problem);
     auto found = std::make_shared<VehiclePlan>();
     found->result = problem_[vehicle].engine->search(problem);
     found->areas_m = areas_of(found->result, problem);

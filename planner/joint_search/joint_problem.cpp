@@ -29,4 +29,17 @@ std::optional<Point> shared_point_m(const ConvexPolygon& a, const ConvexPolygon&
   return centroid_m(shared);
 }
 
+bool meet(const std::vector<ConvexPolygon>& areas_a_m,
+          const std::vector<ConvexPolygon>& areas_b_m) {
+  for (std::size_t j = 0; j < areas_a_m.size(); ++j) {
+    if (shared_point_m(areas_a_m[j], areas_b_m[j])) return true;
+  }
+  return false;
+}
+
+void add_obstacles(const std::vector<ConvexPolygon>& areas_m, search::HorizonProblem& problem) {
+  problem.obstacles_m.resize(problem.horizon_steps());
+  for (std::size_t j = 0; j < areas_m.size(); ++j) problem.obstacles_m[j].push_back(areas_m[j]);
+}
+
 }  // namespace hlc::joint_search

@@ -41,4 +41,11 @@ inline constexpr double kTouching_m2 = 1e-12;
 /// A point inside of both areas, far from their borders if it can be; nothing if they only touch.
 [[nodiscard]] std::optional<Point> shared_point_m(const ConvexPolygon& a, const ConvexPolygon& b);
 
+/// Whether two plans share more than that in any step. @pre equally long
+[[nodiscard]] bool meet(const std::vector<ConvexPolygon>& areas_a_m,
+                        const std::vector<ConvexPolygon>& areas_b_m);
+
+/// Adds areas as obstacles, step by step. @pre one per step of the horizon
+void add_obstacles(const std::vector<ConvexPolygon>& areas_m, search::HorizonProblem& problem);
+
 }  // namespace hlc::joint_search

@@ -10,18 +10,6 @@ namespace {
 
 constexpr std::size_t kMostVehicles = 8;
 
-void add_obstacles(const std::vector<ConvexPolygon>& areas_m, search::HorizonProblem& problem) {
-  problem.obstacles_m.resize(problem.horizon_steps());
-  for (std::size_t j = 0; j < areas_m.size(); ++j) problem.obstacles_m[j].push_back(areas_m[j]);
-}
-
-bool meet(const std::vector<ConvexPolygon>& a, const std::vector<ConvexPolygon>& b) {
-  for (std::size_t j = 0; j < a.size(); ++j) {
-    if (shared_point_m(a[j], b[j])) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Order constant_order(std::size_t num_vehicles) {

@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::size_t kPlaces = 1'000'000;
 
-bool conflict(const std::vector<ConvexPolygon>& a, const std::vector<ConvexPolygon>& b) {
-  for (std::size_t j = 0; j < a.size(); ++j) {
-    if (joint_search::shared_point_m(a[j], b[j])) return true;
-  }
-  return false;
-}
-
 /// Whether all are connected over conflicts.
 template <class Vehicle>
 bool are_connected(const std::vector<const Vehicle*>& vehicles) {
@@ -28,8 +21,10 @@ bool are_connected(const std::vector<const Vehicle*>& vehicles) {
   std::iota(group.begin(), group.end(), std::size_t{0});
   for (std::size_t a = 0; a < vehicles.size(); ++a) {
     for (std::size_t b = a + 1; b < vehicles.size(); ++b) {
-      if (!conflict(vehicles[a]->areas_m, vehicles[b]->areas_m)) continue;
-      std::ranges::replace(group, group[b], group[a]);
+      if (!joint_search::meet(vehicles[a]->areas_m, vehicles[b]->areas_m)) continue;
+      const std::size_t from = group[b];
+      const std::size_t to = group[a];
+      std::ranges::replace(group, from, to);
     }
   }
   return std::ranges::count(group, group.front()) == std::ssize(group);
@@ -45,7 +40,7 @@ JointDraws::JointDraws(scenario::Scenario scenario, const search::SearchOptions&
   on_ = scenario::prepare_subgraph_of(scenario);
   engine_ = search::make_search_engine(*on_.subgraph, *on_.reachable, search, on_.tables);
   if (scenario.candidates.empty()) scenario.candidates = scenario.vehicles;
-  while (vehicles_.size() < kVehicles) {
+  for (std::size_t draws = 0; vehicles_.size() < kVehicles && draws < 10 * kVehicles; ++draws) {
     if (auto vehicle = drive_alone(scenario)) vehicles_.push_back(*std::move(vehicle));
   }
 }
@@ -90,6 +85,7 @@ std::vector<const JointDraws::Vehicle*> JointDraws::near_each_other(std::size_t 
 }
 
 std::optional<joint_search::JointProblem> JointDraws::draw(std::size_t num_vehicles) {
+  if (vehicles_.empty()) return std::nullopt;
   for (std::size_t draws = 0; draws < kMostDraws; ++draws) {
     const std::vector<const Vehicle*> chosen = near_each_other(num_vehicles);
     if (chosen.size() < num_vehicles || !are_connected(chosen)) continue;

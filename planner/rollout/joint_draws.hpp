@@ -32,7 +32,8 @@ class JointDraws {
 
   [[nodiscard]] const controller::PreparedSubgraph& on() const { return on_; }
 
-  static constexpr std::size_t kVehicles = 400;  ///< that problems are composed of
+  /// That problems are composed of; fewer if most places leave a vehicle no plan.
+  static constexpr std::size_t kVehicles = 400;
   static constexpr std::size_t kMostSteps = 20;
   static constexpr double kNear_m = 1.0;
   static constexpr std::size_t kMostDraws = 100'000;

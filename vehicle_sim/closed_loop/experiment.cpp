@@ -161,6 +161,7 @@ class Lab {
       if (answer.copy) forward(*answer.copy, t_now, member);
       reports[i].report = high_level_controller::with_answer(std::move(reports[i].report), answer);
       member.hlc.controller().note_causes(reports[i].report);
+      member.hlc.controller().note_bound(reports[i].report);
       report(reports[i]);
       if (after_step_) after_step_(member.hlc.controller(), member.choice, reports[i].report);
       if (reports[i].report.status == coordination::StepStatus::kStandby) continue;

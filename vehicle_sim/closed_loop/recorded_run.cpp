@@ -46,6 +46,7 @@ class RecordedVehicle {
     record.report = is_running ? plan(list, observation, recorded) : loop_.stand_by(observation);
     record.report = high_level_controller::with_answer(std::move(record.report), hlc_.answer(list));
     controller.note_causes(record.report);
+    controller.note_bound(record.report);
     if (is_running) choice_.end_step(controller, record.report);
     return record;
   }

@@ -114,6 +114,7 @@ export function report_rows(run, vehicle, t) {
     ["subgraph", report.subgraph],
     ["plan found", run.about.words.qualities[quality] + gap],
     ["cost", quality === "none" ? "none" : `${report.cost_m2.toFixed(4)} m2`],
+    ...(report.together ? [["plans together", report.together]] : []),
     ["planning time", planning_words(run, report)],
     ["vertices", `${report.generated} generated, ${report.expanded} expanded`],
     ["level", String(level)],

@@ -184,6 +184,9 @@ TEST(OwnConversionRefuses, NumbersThatAreNotFinite) {
   report = good<ReportRecord>();
   report.report.deviation_m = kNan;
   EXPECT_TRUE(is_refused(report));
+  report = good<ReportRecord>();
+  report.report.bound_m2 = kNan;
+  EXPECT_TRUE(is_refused(report));
 }
 
 TEST(OwnConversionRefuses, AWaitThatBeginsAfterItsStep) {

@@ -154,9 +154,9 @@ void put_message(std::ostream& out, const coordination::HeldRoad& value) {
   put_all(out, value.route, value.place_m, value.ahead_m);
 }
 void put_message(std::ostream& out, const coordination::Report& value) {
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u] = value;
-  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u.has_value(),
-          u.value_or(coordination::HeldRoad{}));
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = value;
+  put_all(out, a, b, c, d, e, f, g, h, i, j, k, l.has_value(), l.value_or(0.0), m, n, o, p, q, r, s,
+          t, u, v.has_value(), v.value_or(coordination::HeldRoad{}));
 }
 void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d, e] = value;
@@ -512,6 +512,7 @@ ReportRecord sample(Random& random) {
       number(random),
       static_cast<coordination::PlanQuality>(whole(random, 2)),
       number(random),
+      coin(random) ? std::optional(number(random)) : std::nullopt,
       random(),
       random(),
       static_cast<std::uint32_t>(whole(random, 20)),

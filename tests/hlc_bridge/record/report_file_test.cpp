@@ -38,6 +38,7 @@ ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uin
   report.cost_m2 = value(random);
   report.quality = static_cast<coordination::PlanQuality>(random() % 3);
   report.gap_m2 = value(random);
+  if (random() % 2 == 0) report.bound_m2 = value(random);
   report.generated = random();
   report.expanded = random() % 1000;
   report.level = static_cast<std::uint32_t>(random());
@@ -78,6 +79,7 @@ void expect_equal(const ReportRecord& a, const ReportRecord& b) {
   EXPECT_EQ(a.report.cost_m2, b.report.cost_m2);
   EXPECT_EQ(a.report.quality, b.report.quality);
   EXPECT_EQ(a.report.gap_m2, b.report.gap_m2);
+  EXPECT_EQ(a.report.bound_m2, b.report.bound_m2);
   EXPECT_EQ(a.report.generated, b.report.generated);
   EXPECT_EQ(a.report.expanded, b.report.expanded);
   EXPECT_EQ(a.report.level, b.report.level);

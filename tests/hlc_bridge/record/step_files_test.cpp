@@ -25,6 +25,7 @@ result::StepRecord row() {
   report.cost_m2 = 0.25;
   report.quality = coordination::PlanQuality::kBudget;
   report.gap_m2 = 0.125;
+  report.bound_m2 = 0.0625;
   report.generated = 40;
   report.expanded = 4;
   report.level = 1;
@@ -49,7 +50,7 @@ TEST(StepFiles, RowHoldsEveryColumnOnce) {
   EXPECT_EQ(
       text.substr(text.find('\n') + 1),
       "3,2,fallback,conflict,1.5,2.5,-0.5,7,1.5,2.25,-0.25,0.25,40,4,1,1;3,3,0.001,budget,0.125,J2,"
-      "\"B, at most 0.6 m/s\",3;1,2,1;4,0.75,0.625\n");
+      "\"B, at most 0.6 m/s\",3;1,2,1;4,0.75,0.625,0.0625\n");
   const auto commas = [](const std::string& line) {
     return std::count(line.begin(), line.end(), ',');
   };
@@ -60,15 +61,16 @@ TEST(StepFiles, PoseAndSpeedThatWereNotRecordedAreEmpty) {
   std::vector<result::StepRecord> rows{row()};
   rows[0].driven.reset();
   rows[0].driven_speed_mps.reset();
+  rows[0].record.report.bound_m2.reset();
   const std::string text = steps_csv(rows);
   EXPECT_NE(text.find(",7,,,,0.25,"), std::string::npos) << text;
-  EXPECT_TRUE(text.ends_with(",0.75,\n")) << text;
+  EXPECT_TRUE(text.ends_with(",0.75,,\n")) << text;
 }
 
 TEST(StepFiles, WithoutAWaitItsColumnsAreEmpty) {
   std::vector<result::StepRecord> rows{row()};
   rows[0].record.report.waiting = {};
-  EXPECT_TRUE(steps_csv(rows).ends_with("0.6 m/s\",,,1;4,0.75,0.625\n"));
+  EXPECT_TRUE(steps_csv(rows).ends_with("0.6 m/s\",,,1;4,0.75,0.625,0.0625\n"));
 }
 
 TEST(StepFiles, NothingOfTheClockIsInTheSteps) {

@@ -50,15 +50,22 @@ TEST(Prioritized, TheFirstOfAnOrderDrivesItsOwnOptimum) {
   }
 }
 
-/// Two side by side that drive straight on, and a third across the way of the second.
+/// One after the other on one line: the second one of the road meets both others, these only it.
 TEST(Prioritized, WhoMeetsMostOthersIsFirst) {
   const JointProblems problems;
   JointProblem problem(3, {.problem = test::straight_problem(8), .engine = &problems.engine()});
-  problem[0].problem.start.x_m += 10.0;
-  for (Point& point_m : problem[0].problem.reference_m) point_m.x() += 10.0;
+  const auto move = [&problem](std::size_t vehicle, double by_m) {
+    problem[vehicle].problem.start.x_m += by_m;
+    for (Point& point_m : problem[vehicle].problem.reference_m) point_m.x() += by_m;
+  };
+  move(0, 0.7);  // beyond the reach of a step of vehicle 1
+  move(2, 0.35);
   const JointPlan alone = plan_alone(problem);
   ASSERT_EQ(alone.size(), 3U);
-  EXPECT_EQ(most_collisions_first(problem, alone), (Order{1, 2, 0}));
+  const auto areas = [&](std::size_t i) { return areas_of(alone[i], problem[i].problem); };
+  ASSERT_TRUE(meet(areas(0), areas(2)) && meet(areas(1), areas(2)));
+  ASSERT_FALSE(meet(areas(0), areas(1)));
+  EXPECT_EQ(most_collisions_first(problem, alone), (Order{2, 0, 1}));
   EXPECT_EQ(constant_order(3), (Order{0, 1, 2}));
 }
 
