@@ -51,7 +51,7 @@ double JointGap::excess() const {
 }
 
 std::string text_of(const JointGap& gap) {
-  const std::string optimum = fmt::format("the joint optimum of {} vehicles", gap.vehicles.size());
+  std::string optimum = fmt::format("the joint optimum of {} vehicles", gap.vehicles.size());
   if (!gap.is_known) return "at an unknown distance from " + optimum;
   if (gap.is_closed()) return optimum;
   return fmt::format("at most {} above {}", percent(gap.excess()), optimum);

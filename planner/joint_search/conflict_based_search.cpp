@@ -231,7 +231,8 @@ class ConflictBasedSearch {
     found->result = problem_[vehicle].engine->search(problem);
     found->areas_m = areas_of(found->result, problem);
     const bool is_none = !found->is_found() && found->result.reason == NoPath::kInfeasible;
-    found->bound_m2 = is_none ? kInfinity : found->result.lower_bound;
+    found->bound_m2 = found->result.lower_bound;
+    if (is_none) found->bound_m2 = kInfinity;
     expanded_ += found->result.expanded;
     return found;
   }
