@@ -86,7 +86,8 @@ TEST_F(JointProblemFileTest, ErrorsNameThePlace) {
   EXPECT_THAT(error_with("\"trim\": 7", "\"trim\": 13"),
               HasSubstr("joint.json: vehicles[0].start.trim = 13, must be"));
   EXPECT_THAT(error_with("\"vehicles\"", "\"cars\""),
-              HasSubstr("joint.json: cars = list, unknown key"));
+              HasSubstr("unknown key; known keys: automaton, subgraph, horizon_steps, step_s, "
+                        "vehicles, search"));
   EXPECT_THAT(error_with("\"reference\"", "\"path\""), HasSubstr("joint.json: vehicles[0].path"));
   EXPECT_THAT(error_with("\"horizon_steps\": 8", "\"horizon_steps\": 7"),
               HasSubstr("one per step, 7 of them"));
