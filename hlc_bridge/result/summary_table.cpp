@@ -111,6 +111,12 @@ std::string legend(const RunSummary& summary) {
       "tracking error   driven to planned position at the same instant, every 20 ms\n"
       "fallb.           steps in which the previous plan stayed in force\n"
       "late             steps in which a deadline was missed (real time)\n";
+  if (summary.joint_gap) {
+    text +=
+        "joint optimum    least cost that the new plans of coupled vehicles could have together in "
+        "a "
+        "step\n";
+  }
   if (longest_wait_s(summary) > 0.0) {
     text += fmt::format(
         "wait             the vehicle stands, though without the others it would drive; stuck: for "
