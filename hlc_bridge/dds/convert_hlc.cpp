@@ -1,82 +1,18 @@
 #include "hlc_bridge/dds/convert_hlc.hpp"
 
 #include <algorithm>
-#include <cmath>
+
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "hlc_bridge/dds/convert_areas.hpp"
 #include "hlc_bridge/dds/convert_planning.hpp"
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
 // until it is converted.
 namespace hlc::dds {
 namespace {
-
-PolygonMessage polygon_to_wire(const ConvexPolygon& polygon) {
-  PolygonMessage result;
-  result.vertices_m().reserve(polygon.vertices_m.size());
-  for (const Point& vertex : polygon.vertices_m) {
-    PointMessage point;
-    point.x_m(vertex.x());
-    point.y_m(vertex.y());
-    result.vertices_m().push_back(point);
-  }
-  return result;
-}
-
-/// The search accepts no larger coordinates.
-bool is_near(double coordinate_m) { return std::abs(coordinate_m) <= kLargestCoordinate_m; }
-
-/// Without consecutive duplicate corners.
-ConvexPolygon polygon_from_wire(const PolygonMessage& wire) {
-  ConvexPolygon result;
-  auto& vertices = result.vertices_m;
-  vertices.reserve(wire.vertices_m().size());
-  for (const PointMessage& point : wire.vertices_m()) {
-    const Point vertex{point.x_m(), point.y_m()};
-    if (vertices.empty() || vertices.back() != vertex) vertices.push_back(vertex);
-  }
-  while (vertices.size() > 1 && vertices.back() == vertices.front()) vertices.pop_back();
-  return result;
-}
-
-bool is_valid(const PolygonMessage& wire) {
-  const auto& vertices = wire.vertices_m();
-  return vertices.size() <= kMaxEntries &&
-         std::ranges::all_of(vertices,
-                             [](const PointMessage& point) {
-                               return is_near(point.x_m()) && is_near(point.y_m());
-                             }) &&
-         (vertices.empty() || polygon_from_wire(wire).vertices_m.size() >= 3);
-}
-
-AreasMessage areas_to_wire(const coordination::OccupiedAreas& areas) {
-  const auto& [first, areas_m, final_area_m] = areas;
-  AreasMessage result;
-  result.first_step(first.value);
-  for (const ConvexPolygon& area : areas_m) {
-    result.areas_m().push_back(polygon_to_wire(area));
-  }
-  result.final_area_m(polygon_to_wire(final_area_m));
-  return result;
-}
-
-bool is_valid(const AreasMessage& wire) {
-  return wire.areas_m().size() <= kMaxEntries && is_valid(wire.final_area_m()) &&
-         std::ranges::all_of(wire.areas_m(),
-                             [](const PolygonMessage& area) { return is_valid(area); });
-}
-
-coordination::OccupiedAreas areas_from_wire(const AreasMessage& wire) {
-  coordination::OccupiedAreas result{.first = {wire.first_step()},
-                                     .areas_m = {},
-                                     .final_area_m = polygon_from_wire(wire.final_area_m())};
-  for (const PolygonMessage& area : wire.areas_m()) {
-    result.areas_m.push_back(polygon_from_wire(area));
-  }
-  return result;
-}
 
 std::vector<std::uint8_t> ids_to_wire(const std::vector<VehicleId>& ids) {
   std::vector<std::uint8_t> result;
@@ -205,8 +141,8 @@ bool can_be_written(const coordination::Outcome& message) { return is_valid(mess
 bool can_be_written(const ReportRecord& message) { return is_valid(message.report.vehicle); }
 
 void to_wire(const coordination::Traffic& message, TrafficMessage& wire) {
-  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent, claim,
-               planning] = message;
+  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent,
+               standing_steps, reference_areas_m, claim, planning] = message;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
   wire.next_pose(pose_to_wire(next_pose));
@@ -214,6 +150,8 @@ void to_wire(const coordination::Traffic& message, TrafficMessage& wire) {
   wire.running(areas_to_wire(running));
   wire.reachable_area_m(polygon_to_wire(reachable_area_m));
   wire.silent(ids_to_wire(silent));
+  wire.standing_steps(standing_steps);
+  wire.reference_areas_m(polygons_to_wire(reference_areas_m));
   wire.claims_lane(claim.has_value());
   wire.claim(claim_to_wire(claim.value_or(coordination::LaneClaim{})));
   wire.has_planning(planning.has_value());
@@ -221,11 +159,11 @@ void to_wire(const coordination::Traffic& message, TrafficMessage& wire) {
 }
 
 Incoming<coordination::Traffic> from_wire(const TrafficMessage& wire) {
-  const bool valid = is_valid(VehicleId{wire.vehicle_id()}) &&
-                     is_finite(pose_from_wire(wire.next_pose())) && is_valid(wire.running()) &&
-                     is_valid(wire.reachable_area_m()) && is_valid(wire.silent()) &&
-                     (!wire.claims_lane() || is_valid(wire.claim())) &&
-                     (!wire.has_planning() || is_valid(wire.planning()));
+  const bool valid =
+      is_valid(VehicleId{wire.vehicle_id()}) && is_finite(pose_from_wire(wire.next_pose())) &&
+      is_valid(wire.running()) && is_valid(wire.reachable_area_m()) && is_valid(wire.silent()) &&
+      are_valid(wire.reference_areas_m()) && (!wire.claims_lane() || is_valid(wire.claim())) &&
+      (!wire.has_planning() || is_valid(wire.planning()));
   if (!valid) {
     return {std::nullopt, 1};
   }
@@ -238,6 +176,8 @@ Incoming<coordination::Traffic> from_wire(const TrafficMessage& wire) {
           .running = areas_from_wire(wire.running()),
           .reachable_area_m = polygon_from_wire(wire.reachable_area_m()),
           .silent = ids_from_wire(wire.silent()),
+          .standing_steps = wire.standing_steps(),
+          .reference_areas_m = polygons_from_wire(wire.reference_areas_m()),
           .claim = wire.claims_lane() ? std::optional{claim_from_wire(wire.claim())} : std::nullopt,
           .planning = wire.has_planning() ? std::optional{planning_from_wire(wire.planning())}
                                           : std::nullopt},

@@ -70,6 +70,7 @@ Controller::Controller(ControllerOptions options, PreparedSubgraph on,
 coordination::Report Controller::stand_by(const Observation& observation) {
   step_ = Step{};
   step_.observation = observation;
+  standing_steps_ = 0;
   neighbours_.begin_step(observation.step);
   if (const coordination::MeasuredVehicle* own = observation.measured(options_.vehicle)) {
     const automaton::UniversalAutomaton& automaton = subgraph().automaton();
@@ -125,6 +126,14 @@ coordination::Traffic Controller::observe(const Observation& observation) {
   traffic.running = in_force_->announced_areas(now);
   traffic.reachable_area_m = reachable_area_m();
   traffic.silent = neighbours_.silent(observation.active);
+  const auto stands_at = [this](StepIndex step) {
+    return subgraph().automaton().trims[plan_in_force().trim_at(step).index].is_equilibrium();
+  };
+  standing_steps_ = stands_at(now) && stands_at(step_.next()) ? standing_steps_ + 1 : 0;
+  traffic.standing_steps = standing_steps_;
+  if (options_.strategies.priorities.strategy->compares_references) {
+    traffic.reference_areas_m = reference_areas_m();
+  }
   if (authority_) {
     authority_->begin_step(plan_in_force(), now, tracker_, reach_m());
     traffic.claim = authority_->claim();
@@ -188,16 +197,17 @@ void Controller::couple(const coordination::ReceivedMessages<coordination::Traff
   traffic.push_back(&step_.traffic);
   step_.report.missing = neighbours_.missing();
   extend_authority(shared);
-  const auto& [graph, levels] =
-      shared.coupling(std::move(traffic), options_.strategies.plans_before);
+  const auto& [graph, plans_before, levels] =
+      shared.coupling(std::move(traffic), options_.strategies.priorities);
   step_.report.level = levels.at(options_.vehicle);
-  take_coupling(graph);
+  take_coupling(graph, plans_before);
 }
 
-void Controller::take_coupling(const coordination::CouplingGraph& graph) {
+void Controller::take_coupling(const coordination::CouplingGraph& graph,
+                               const coordination::PriorityOrder& plans_before) {
   step_.coupling = graph;
-  step_.predecessors =
-      coordination::predecessors(graph, options_.vehicle, options_.strategies.plans_before);
+  step_.plans_before = plans_before;
+  step_.predecessors = coordination::predecessors(graph, options_.vehicle, plans_before);
   step_.component = graph.component(options_.vehicle);
   step_.report.coupled = graph.neighbours(options_.vehicle);
   // A coupled vehicle that does not receive our messages may soon drive as if we stood for good

@@ -79,7 +79,7 @@ class Controller {
 
   /// Another order and rule of coordination from the next step on; all vehicles of a run need the
   /// same. Not in the middle of a step.
-  void coordinate_by(const coordination::PriorityRule& plans_before, const CoordinationRule& rule);
+  void coordinate_by(const coordination::PriorityRule& priorities, const CoordinationRule& rule);
 
   /// Follows another route from the next step on, from its place there (see `placement`). Not in
   /// the middle of a step. The plan in force stays, and is the fallback as always: where no plan
@@ -141,6 +141,22 @@ class Controller {
               SharedStep& shared);
   /// The same alone.
   void couple(const coordination::ReceivedMessages<coordination::Traffic>& received);
+  /// Any time between the second phase and the third: another order than PriorityRule::assign gave.
+  void plan_in(const coordination::PriorityOrder& plans_before);
+  /// All that the third phase changes.
+  class Coupled;
+  /// After the second phase, to plan again from there. @pre is_settled
+  [[nodiscard]] Coupled coupled_state() const;
+  /// @param state  of this object in this step
+  void restore(const Coupled& state);
+  /// Only the current subgraph may be planned on.
+  [[nodiscard]] bool is_settled() const { return search_.is_settled(); }
+  /// What the plan of the third phase costs, for the whole reference; none if there is no new plan.
+  [[nodiscard]] std::optional<double> planned_cost_m2() const {
+    return step_.candidate.plan ? std::optional(step_.cost_m2) : std::nullopt;
+  }
+  /// Vertices that the third phase has expanded.
+  [[nodiscard]] std::uint64_t expanded() const { return step_.report.expanded; }
   /// Third phase. Needs the predictions of `predecessors`. Poses the problem, searches, predicts
   /// the drift, checks the result, and searches again if the drift leads into something: planning
   /// time is the duration of all this.
@@ -178,6 +194,10 @@ class Controller {
   [[nodiscard]] const std::vector<VehicleId>& component() const { return step_.component; }
   [[nodiscard]] const std::vector<VehicleId>& missing() const { return step_.report.missing; }
   [[nodiscard]] const coordination::CouplingGraph& coupling() const { return *step_.coupling; }
+  /// In which order the vehicles of the component plan in this step.
+  [[nodiscard]] const coordination::PriorityOrder& plans_before() const {
+    return step_.plans_before;
+  }
   /// Traffic of this step of a vehicle of the component, its own included.
   [[nodiscard]] const coordination::Traffic& traffic_of(VehicleId vehicle) const {
     return vehicle == options_.vehicle ? step_.traffic : neighbours_.traffic_of(vehicle);
@@ -260,6 +280,7 @@ class Controller {
     coordination::Report report;
     coordination::Traffic traffic;  ///< own
     std::optional<coordination::CouplingGraph> coupling;
+    coordination::PriorityOrder plans_before;
     std::vector<VehicleId> predecessors;
     std::vector<VehicleId> component;
     std::vector<search::HorizonProblem> entry_problems;
@@ -285,7 +306,9 @@ class Controller {
   [[nodiscard]] ConvexPolygon reachable_area_m() const;
   void depart_from(const Pose& pose);
   [[nodiscard]] std::optional<coordination::PlanningInput> planning_input() const;
-  void take_coupling(const coordination::CouplingGraph& graph);
+  void take_coupling(const coordination::CouplingGraph& graph,
+                     const coordination::PriorityOrder& plans_before);
+  [[nodiscard]] std::vector<ConvexPolygon> reference_areas_m() const;
   [[nodiscard]] bool may_plan() const;
   void extend_authority(SharedStep& shared);
   void respect_predecessors(
@@ -337,7 +360,21 @@ class Controller {
   Step step_;
   std::optional<search::HorizonProblem> former_problem_;  ///< for `warm_up`
   coordination::Waiting waiting_;                         ///< in the last step
+  std::uint32_t standing_steps_{};                        ///< Traffic::standing_steps
   std::uint64_t routes_digest_;
+};
+
+/// For its controller only.
+class Controller::Coupled {
+  friend class Controller;
+  Coupled(Step step, RouteTracker tracker, DrivableArea drivable_area)
+      : step_(std::move(step)),
+        tracker_(std::move(tracker)),
+        drivable_area_(std::move(drivable_area)) {}
+
+  Step step_;
+  RouteTracker tracker_;
+  DrivableArea drivable_area_;
 };
 
 }  // namespace hlc::controller

@@ -13,9 +13,9 @@ void Controller::set_max_expansions(std::size_t max_expansions) {
   search_.set_max_expansions(max_expansions);
 }
 
-void Controller::coordinate_by(const coordination::PriorityRule& plans_before,
+void Controller::coordinate_by(const coordination::PriorityRule& priorities,
                                const CoordinationRule& rule) {
-  options_.strategies.plans_before = plans_before;
+  options_.strategies.priorities = priorities;
   options_.strategies.coordination = rule;
 }
 

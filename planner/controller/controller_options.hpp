@@ -57,7 +57,7 @@ inline constexpr CoordinationRule kAgreedCoordination{
 
 /// The rules by which a controller plans and coordinates. All vehicles of a run need the same.
 struct ControllerStrategies {
-  coordination::PriorityRule plans_before{};
+  coordination::PriorityRule priorities{};
   CoordinationRule coordination{kCooperativeCoordination};
   IncumbentRule incumbent{&rest_of_plan_in_force};
   StandstillTimeoutRule standstill_timeout{&once_per_horizon};

@@ -28,7 +28,7 @@ CoupledVehicle Controller::coupled_vehicle(VehicleId other) const {
   const auto respected = step_.respected.find(other);
   return {.traffic = &neighbours_.traffic_of(other),
           .prediction = respected == step_.respected.end() ? nullptr : respected->second.get(),
-          .is_predecessor = options_.strategies.plans_before(other, options_.vehicle)};
+          .is_predecessor = holds(predecessors(), other)};
 }
 
 void Controller::respect_predecessors(

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <set>
 
+#include "planner/controller/order_of_component.hpp"
+
 namespace hlc::controller {
 
 std::vector<VehicleId> JointPlanning::prepare(const Controller& own) {
@@ -26,7 +28,7 @@ Controller* JointPlanning::replica_of(VehicleId vehicle, const Controller& own) 
   if (!replica) replica = others_(vehicle);
   const ControllerStrategies& rules = own.options().strategies;
   if (replica && replica->options().strategies != rules) {
-    replica->coordinate_by(rules.plans_before, rules.coordination);
+    replica->coordinate_by(rules.priorities, rules.coordination);
   }
   return replica.get();
 }
@@ -41,7 +43,7 @@ bool JointPlanning::can_plan(VehicleId vehicle, const Controller& own) {
 
 std::vector<VehicleId> JointPlanning::vehicles_that_matter(const Controller& own) const {
   const coordination::CouplingGraph& coupling = own.coupling();
-  const coordination::PriorityRule& plans_before = own.options().strategies.plans_before;
+  const coordination::PriorityOrder& plans_before = own.plans_before();
   std::vector<VehicleId> found{own.options().vehicle};
   std::ranges::copy(own.coupled(), std::back_inserter(found));
   std::set<VehicleId> known(found.begin(), found.end());
@@ -55,10 +57,16 @@ std::vector<VehicleId> JointPlanning::vehicles_that_matter(const Controller& own
 }
 
 coordination::ReceivedMessages<coordination::Prediction> JointPlanning::plan(Controller& own) {
+  const auto controller_of = [&](VehicleId vehicle) {
+    return vehicle == own.options().vehicle ? &own : replicas_.at(vehicle).get();
+  };
+  std::vector<Controller*> component;
+  for (const VehicleId vehicle : own.component()) component.push_back(controller_of(vehicle));
+  choose_order(component);
   coordination::ReceivedMessages<coordination::Prediction> predictions;
   for (const VehicleId vehicle : vehicles_that_matter(own)) {
-    Controller& one = vehicle == own.options().vehicle ? own : *replicas_.at(vehicle);
-    predictions.put(std::make_shared<const coordination::Prediction>(one.plan(predictions)));
+    predictions.put(std::make_shared<const coordination::Prediction>(
+        controller_of(vehicle)->plan(predictions)));
   }
   return predictions;
 }

@@ -37,7 +37,8 @@ class JointPlanning {
   /// controllers that received the same, as far as their bases agree. @param own  after `couple`
   [[nodiscard]] std::vector<VehicleId> prepare(const Controller& own);
 
-  /// Plans for all vehicles that matter, the own one included, in the order of their priorities.
+  /// Plans for all vehicles that matter, the own one included, in the order of their priorities,
+  /// after that of the component has been chosen (order_of_component.hpp).
   /// @pre `prepare` returned none, in the same step
   [[nodiscard]] coordination::ReceivedMessages<coordination::Prediction> plan(Controller& own);
 

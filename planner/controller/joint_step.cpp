@@ -1,7 +1,13 @@
 #include "planner/controller/joint_step.hpp"
 
+#include <algorithm>
+#include <map>
 #include <memory>
+#include <numeric>
+#include <set>
 #include <utility>
+
+#include "planner/controller/order_of_component.hpp"
 
 namespace hlc::controller {
 namespace {
@@ -53,6 +59,50 @@ StepOutput plan(ControlLoop& loop, const JointStepRules& rules) {
   return output;
 }
 
+/// Where the controllers do not do so themselves, as they would if each received the others.
+void choose_orders(std::span<ControlLoop* const> loops) {
+  std::map<VehicleId, Controller*> open;
+  for (ControlLoop* one : loops) {
+    if (one->two_rounds() == nullptr)
+      open[one->controller().options().vehicle] = &one->controller();
+  }
+  while (!open.empty()) {
+    std::vector<Controller*> component;
+    bool is_complete = true;
+    const Controller& any = *open.begin()->second;
+    for (const VehicleId vehicle : any.component()) {
+      const auto found = open.find(vehicle);
+      is_complete = is_complete && found != open.end() &&
+                    found->second->component() == any.component() &&
+                    found->second->missing().empty();
+      if (found != open.end()) component.push_back(found->second);
+    }
+    if (is_complete) choose_order(component);
+    for (const Controller* one : component) open.erase(one->options().vehicle);
+  }
+}
+
+/// Each loop after those of its predecessors, as far as that is possible: where messages were lost
+/// two may each take the other for its predecessor.
+std::vector<std::size_t> planning_order(std::span<ControlLoop* const> loops) {
+  std::set<VehicleId> waiting;
+  std::vector<std::size_t> rest(loops.size());
+  std::iota(rest.begin(), rest.end(), std::size_t{});
+  for (const ControlLoop* one : loops) waiting.insert(one->controller().options().vehicle);
+  std::vector<std::size_t> order;
+  while (!rest.empty()) {
+    auto next = std::ranges::find_if(rest, [&](std::size_t i) {
+      return std::ranges::none_of(loops[i]->controller().predecessors(),
+                                  [&](VehicleId other) { return waiting.contains(other); });
+    });
+    if (next == rest.end()) next = rest.begin();
+    waiting.erase(loops[*next]->controller().options().vehicle);
+    order.push_back(*next);
+    rest.erase(next);
+  }
+  return order;
+}
+
 }  // namespace
 
 std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops,
@@ -71,9 +121,10 @@ std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops
   }
   SharedStep shared;
   for (ControlLoop* one : loops) static_cast<void>(one->proceed(&shared));
+  choose_orders(loops);
 
   std::vector<coordination::Report> reports(loops.size());
-  for (std::size_t i = 0; i < loops.size(); ++i) {
+  for (const std::size_t i : planning_order(loops)) {
     if (rules.is_late && rules.is_late(loops[i]->controller())) {
       reports[i] = *loops[i]->fall_back(coordination::FallbackReason::kLate).report;
       continue;

@@ -44,10 +44,11 @@ struct JointStepRules {
 };
 
 /// One control step of controllers that receive each other's messages in memory, each with the same
-/// observation. Vehicles plan in the order of their priorities, so that none has to wait.
+/// observation. Each plans after those that it has to wait for. Where priorities compare orders by
+/// their plans (order_of_component.hpp), the controllers choose one together, if none misses
+/// another; those with two rounds each for itself.
 ///
-/// @param loops  in the order of priorities (PriorityRule); each controller with a plan in force,
-/// none in a step
+/// @param loops  each controller with a plan in force, none in a step
 /// @return their reports, in the same order
 std::vector<coordination::Report> joint_step(std::span<ControlLoop* const> loops,
                                              const Observation& observation,

@@ -97,10 +97,12 @@ std::uint64_t number_of(const Rule& rule, const std::array<Rule, n>& known) {
 }
 
 void add(WordHash& hash, const ControllerStrategies& strategies) {
-  hash.add(std::uint64_t{strategies.plans_before.first().size()});
-  for (const VehicleId vehicle : strategies.plans_before.first()) {
-    hash.add(std::uint64_t{vehicle.value});
-  }
+  const auto& [strategy, first, max_levels, beyond] = strategies.priorities;
+  hash.add(strategy->name);
+  hash.add(std::uint64_t{first.size()});
+  for (const VehicleId vehicle : first) hash.add(std::uint64_t{vehicle.value});
+  hash.add(std::uint64_t{max_levels});
+  hash.add(beyond->name);
   hash.add(
       number_of(strategies.coordination,
                 std::array{kStrictCoordination, kCooperativeCoordination, kAgreedCoordination}));

@@ -62,7 +62,7 @@ bool Controller::resume(const coordination::Traffic& traffic, const Controller& 
   neighbours_ = receiver.neighbours_.in_place_of(options_.vehicle, receiver.step_.traffic);
   if (authority_) authority_->resume(*traffic.claim, options_.vehicle, *receiver.authority_);
   standing_m_ = receiver.standing_m_;
-  take_coupling(receiver.coupling());
+  take_coupling(receiver.coupling(), receiver.plans_before());
   return true;
 }
 

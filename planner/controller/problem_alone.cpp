@@ -5,6 +5,8 @@
 #include <span>
 #include <utility>
 
+#include "planner/geometry/footprint.hpp"
+
 namespace hlc::controller {
 namespace {
 
@@ -28,17 +30,36 @@ std::vector<Point> contouring(const road::ReferencePath& path, std::span<const d
 
 }  // namespace
 
+road::Reference reference_alone(const coordination::Traffic& own, const RouteTracker& tracker,
+                                double s_m, const automaton::UniversalAutomaton& automaton,
+                                const ControllerOptions& options, double end_s_m) {
+  road::Reference reference = road::reference_points(
+      tracker.route().path, s_m, automaton.trims[own.next_trim.index].speed_mps,
+      options.reference_speed_mps, options.horizon_steps, automaton.step_s, options.reference_rule);
+  return road::reference_on(tracker.route().driving_line, tracker.route().path,
+                            std::move(reference), end_s_m);
+}
+
+std::vector<ConvexPolygon> areas_on(const road::Reference& reference,
+                                    const road::ReferencePath& path,
+                                    const vehicle::VehicleParameters& vehicle) {
+  std::vector<ConvexPolygon> areas_m;
+  for (std::size_t j = 0; j < reference.points_m.size(); ++j) {
+    const Point& point_m = reference.points_m[j];
+    const double heading_rad = road::chord_heading_rad(path, reference.s_m[j], kHalfChord_m);
+    areas_m.push_back(footprint_area(vehicle.footprint, {point_m.x(), point_m.y(), heading_rad},
+                                     vehicle.safety_margin_m));
+  }
+  return areas_m;
+}
+
 search::HorizonProblem problem_alone(const coordination::Traffic& own, const RouteTracker& tracker,
                                      const road::Corridor& corridor, double reach_m,
                                      const automaton::UniversalAutomaton& automaton,
                                      const ControllerOptions& options, double end_s_m) {
   const double s_m = tracker.s_m().value();
   search::HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
-  road::Reference reference = road::reference_points(
-      tracker.route().path, s_m, automaton.trims[own.next_trim.index].speed_mps,
-      options.reference_speed_mps, options.horizon_steps, automaton.step_s, options.reference_rule);
-  reference = road::reference_on(tracker.route().driving_line, tracker.route().path,
-                                 std::move(reference), end_s_m);
+  road::Reference reference = reference_alone(own, tracker, s_m, automaton, options, end_s_m);
   problem.reference_m = std::move(reference.points_m);
   problem.reference_speed_mps = std::move(reference.speeds_mps);
   if (options.contouring_weight > 0.0) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "planner/automaton/automaton.hpp"
 #include "planner/controller/controller_options.hpp"
 #include "planner/controller/route_tracker.hpp"
@@ -7,6 +9,18 @@
 #include "planner/search/horizon_problem.hpp"
 
 namespace hlc::controller {
+
+/// The reference points that the vehicle has when its plan begins at the pose announced in its
+/// traffic. @param s_m  its place on its route then. Others as below
+[[nodiscard]] road::Reference reference_alone(const coordination::Traffic& own,
+                                              const RouteTracker& tracker, double s_m,
+                                              const automaton::UniversalAutomaton& automaton,
+                                              const ControllerOptions& options, double end_s_m);
+
+/// The vehicle on reference points, in the direction of its route; safety margin included.
+[[nodiscard]] std::vector<ConvexPolygon> areas_on(const road::Reference& reference,
+                                                  const road::ReferencePath& path,
+                                                  const vehicle::VehicleParameters& vehicle);
 
 /// The problem of a vehicle without all others: from the pose announced in its traffic, along its
 /// route from its place there on, within the corridor as far as it may get.

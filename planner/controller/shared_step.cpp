@@ -1,28 +1,34 @@
 #include "planner/controller/shared_step.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace hlc::controller {
 namespace {
 
-/// Equal in all that a CouplingGraph depends on.
+/// Equal in all that couplings and priorities depend on.
 bool couples_alike(const coordination::Traffic* a, const coordination::Traffic* b) {
-  return a == b || (a->vehicle == b->vehicle && a->reachable_area_m == b->reachable_area_m);
+  const auto compared = [](const coordination::Traffic& one) {
+    return std::tie(one.vehicle, one.step, one.next_pose, one.reachable_area_m, one.standing_steps,
+                    one.reference_areas_m);
+  };
+  return a == b || compared(*a) == compared(*b);
 }
 
 }  // namespace
 
 const SharedStep::Coupling& SharedStep::coupling(std::vector<const coordination::Traffic*> traffic,
-                                                 const coordination::PriorityRule& plans_before) {
+                                                 const coordination::PriorityRule& priorities) {
   std::ranges::sort(traffic, {}, [](const coordination::Traffic* one) { return one->vehicle; });
-  if (!coupling_ || plans_before != plans_before_ ||
+  if (!coupling_ || priorities != priorities_ ||
       !std::ranges::equal(traffic, traffic_, couples_alike)) {
     traffic_ = traffic;
-    plans_before_ = plans_before;
+    priorities_ = priorities;
     coordination::CouplingGraph graph(std::move(traffic));
-    auto levels = coordination::computation_levels(graph, plans_before);
-    coupling_.emplace(std::move(graph), std::move(levels));
+    coordination::PriorityOrder order = priorities.assign({.graph = graph, .traffic = traffic_});
+    auto levels = coordination::computation_levels(graph, order);
+    coupling_.emplace(std::move(graph), std::move(order), std::move(levels));
   }
   return *coupling_;
 }

@@ -19,12 +19,13 @@ class SharedStep {
  public:
   struct Coupling {
     coordination::CouplingGraph graph;
+    coordination::PriorityOrder plans_before;   ///< PriorityRule::assign
     std::map<VehicleId, std::uint32_t> levels;  ///< computation_levels
   };
 
   /// @param traffic  as for CouplingGraph; kept by address: must outlive this object, unchanged
   [[nodiscard]] const Coupling& coupling(std::vector<const coordination::Traffic*> traffic,
-                                         const coordination::PriorityRule& plans_before);
+                                         const coordination::PriorityRule& priorities);
 
   /// right_of_way::grant. @param holders  sorted by vehicle
   [[nodiscard]] const std::vector<double>& granted(const right_of_way::ConflictMap& map,
@@ -42,7 +43,7 @@ class SharedStep {
   };
 
   std::vector<const coordination::Traffic*> traffic_;  ///< of `coupling_`
-  coordination::PriorityRule plans_before_;
+  coordination::PriorityRule priorities_;
   std::optional<Coupling> coupling_;
   std::optional<Granted> granted_;
 };

@@ -105,8 +105,8 @@ void add(WordHash& hash, const std::optional<Value>& value) {
 }  // namespace
 
 std::uint64_t digest_of(const Traffic& traffic) {
-  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent, claim,
-               planning] = traffic;
+  const auto& [vehicle, step, next_pose, next_trim, running, reachable_area_m, silent,
+               standing_steps, reference_areas_m, claim, planning] = traffic;
   WordHash hash;
   add(hash, vehicle);
   add(hash, step);
@@ -115,6 +115,8 @@ std::uint64_t digest_of(const Traffic& traffic) {
   add(hash, running);
   add(hash, reachable_area_m);
   add(hash, silent);
+  add(hash, standing_steps);
+  add(hash, reference_areas_m);
   add(hash, claim);
   add(hash, planning);
   return hash.value();

@@ -22,6 +22,7 @@ bool is_well_formed(const LaneClaim& claim) {
 
 bool is_well_formed(const Traffic& traffic) {
   return !traffic.reachable_area_m.empty() && are_well_formed(traffic.running, traffic.step) &&
+         std::ranges::none_of(traffic.reference_areas_m, &ConvexPolygon::empty) &&
          (!traffic.claim || is_well_formed(*traffic.claim));
 }
 

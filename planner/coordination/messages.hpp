@@ -55,6 +55,11 @@ struct Traffic {
   /// Vehicles from which the sender received nothing for several steps. A vehicle that is listed
   /// keeps its running plan: the sender may soon consider it a standing obstacle (missing.hpp).
   std::vector<VehicleId> silent;
+  std::uint32_t standing_steps{};  ///< control steps for which the plan in force has stood
+  /// The vehicle on the reference points of the new plan, whatever the others do, at t(k+2),
+  /// t(k+3), ...; safety margin included. Empty: no priorities compare them, or it has no place on
+  /// its route.
+  std::vector<ConvexPolygon> reference_areas_m{};
   /// Place at t(k), authority as of the end of the last step. Absent: the run has no right of way.
   std::optional<LaneClaim> claim{};
   /// With which the receivers can plan for the sender. Absent: they cannot; they need its

@@ -31,7 +31,7 @@ Rollout::Rollout(std::vector<std::unique_ptr<controller::Controller>> controller
                                             controller.subgraph().automaton())}}));
   }
   HLC_DEMAND(!controllers_.empty());
-  std::ranges::sort(controllers_, controllers_.front()->options().strategies.plans_before, id);
+  std::ranges::sort(controllers_, {}, id);
   ++next_step_.value;
 }
 

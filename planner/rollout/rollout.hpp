@@ -38,7 +38,7 @@ class Rollout {
   /// for each other (ControllerOptions::others)
   void exchange_in(controller::Rounds rounds) { rules_.rounds = rounds; }
 
-  /// One control step of all vehicles; reports in the order of priorities.
+  /// One control step of all vehicles; reports by vehicle.
   std::vector<coordination::Report> step();
 
   [[nodiscard]] StepIndex next_step() const { return next_step_; }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <stdexcept>
 #include <variant>
 
@@ -34,19 +33,18 @@ struct AppliedForks::Step {
   const std::vector<road::DrivableRoute>& routes;  ///< the scenario's
 
   void apply(const Fork::Priorities& change) const {
-    const coordination::PriorityRule plans_before(change.first);
     for (Member& member : members) {
       controller::Controller& controller = member.hlc.controller();
-      controller.coordinate_by(plans_before, controller.options().strategies.coordination);
+      coordination::PriorityRule priorities = controller.options().strategies.priorities;
+      priorities.first = change.first;
+      controller.coordinate_by(priorities, controller.options().strategies.coordination);
     }
-    std::ranges::sort(members, std::cref(plans_before),
-                      [](const Member& member) { return VehicleId{member.id}; });
   }
 
   void apply(const Fork::Coordination& change) const {
     for (Member& member : members) {
       controller::Controller& controller = member.hlc.controller();
-      controller.coordinate_by(controller.options().strategies.plans_before, change.rule);
+      controller.coordinate_by(controller.options().strategies.priorities, change.rule);
     }
   }
 

@@ -27,7 +27,6 @@ class AppliedForks {
   /// Applies what changes in this step.
   /// @param from     step of the experiment, from 0
   /// @param now      the same as the controllers count
-  /// @param members  in the order of priorities, also afterwards
   /// @throws std::invalid_argument with one line: a change that is impossible where the vehicles
   /// are (Fork::Obstacle, Fork::Route)
   void apply(std::uint64_t from, StepIndex now, std::vector<Member>& members,

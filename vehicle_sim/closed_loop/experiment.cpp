@@ -69,8 +69,7 @@ class Lab {
                           .loop = std::move(loop),
                           .choice = std::move(choice)});
     }
-    std::ranges::sort(members_, scenario.profile.strategies.plans_before,
-                      [](const Member& member) { return VehicleId{member.id}; });
+    std::ranges::sort(members_, {}, &Member::id);
     forks_.emplace(options.forks, scenario, members_);
   }
 
@@ -275,7 +274,7 @@ class Lab {
   ExperimentOptions::AfterStep after_step_;
   std::function<Nanoseconds()> wall_clock_;
   std::function<Nanoseconds()> cpu_clock_;
-  std::vector<Member> members_;  ///< in the order of priorities
+  std::vector<Member> members_;  ///< by id
   std::optional<AppliedForks> forks_;
   middleware::StateBuffer states_;
   std::optional<StepIndex> start_;  ///< first step of the experiment, once it has begun

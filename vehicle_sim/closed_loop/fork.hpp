@@ -14,7 +14,7 @@ namespace hlc::closed_loop {
 
 /// What is different from a step of a run on: a "what if". Before, the run is the same.
 struct Fork {
-  /// coordination::PriorityRule of all controllers.
+  /// PriorityRule::first of all controllers.
   struct Priorities {
     std::vector<VehicleId> first;
     friend bool operator==(const Priorities&, const Priorities&) = default;

@@ -131,9 +131,9 @@ void put_message(std::ostream& out, const coordination::LaneClaim& value) {
   put_all(out, a, b, c, d);
 }
 void put_message(std::ostream& out, const coordination::Traffic& value) {
-  const auto& [a, b, c, d, e, f, g, h, i] = value;
-  put_all(out, a, b, c, d, e, f, g, h.has_value(), h.value_or(coordination::LaneClaim{}),
-          i.has_value(), coordination::digest_of(value));
+  const auto& [a, b, c, d, e, f, g, h, i, j, k] = value;
+  put_all(out, a, b, c, d, e, f, g, h, i, j.has_value(), j.value_or(coordination::LaneClaim{}),
+          k.has_value(), coordination::digest_of(value));
 }
 void put_message(std::ostream& out, const coordination::Prediction& value) {
   const auto& [a, b, c, d, e] = value;
@@ -468,6 +468,8 @@ coordination::Traffic sample(Random& random) {
   coordination::Traffic traffic{vehicle(random),         {random()},    pose(random),
                                 {whole(random, 100)},    areas(random), polygon(random),
                                 list(random, 5, vehicle)};
+  traffic.standing_steps = static_cast<std::uint32_t>(random());
+  traffic.reference_areas_m = list(random, 9, polygon);
   if (coin(random)) {
     traffic.claim = {static_cast<std::uint32_t>(random()), number(random), number(random),
                      static_cast<std::uint32_t>(random())};

@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::Pair;
 
 const coordination::PriorityRule kSmallerIdFirst;
-const coordination::PriorityRule kTwoFirst({{3}, {2}});
+const coordination::PriorityRule kTwoFirst{.first = {{3}, {2}}};
 
 Traffic reaching(std::uint8_t vehicle, double x_m) {
   return {.vehicle = {vehicle}, .reachable_area_m = footprint_area({1.0, 1.0}, {x_m, 0.0, 0.0})};
@@ -38,8 +38,8 @@ TEST(SharedStep, IsComputedAgainForEveryOtherInput) {
   const Traffic three = reaching(3, 0.5);
   SharedStep shared;
   const auto levels = [&](std::vector<const Traffic*> traffic,
-                          const coordination::PriorityRule& plans_before) {
-    return shared.coupling(std::move(traffic), plans_before).levels;
+                          const coordination::PriorityRule& priorities) {
+    return shared.coupling(std::move(traffic), priorities).levels;
   };
   EXPECT_THAT(levels({&one, &two}, kSmallerIdFirst),
               ElementsAre(Pair(VehicleId{1}, 0), Pair(VehicleId{2}, 1)));

@@ -97,6 +97,8 @@ TEST(Digest, EveryPartChangesThatOfATraffic) {
       [](Traffic& one) { one.running.final_area_m.vertices_m[2].y() = 1.1; },
       [](Traffic& one) { one.reachable_area_m.vertices_m[0].x() = -0.1; },
       [](Traffic& one) { one.silent = {{3}}; },
+      [](Traffic& one) { one.standing_steps = 1; },
+      [](Traffic& one) { one.reference_areas_m = {one.reachable_area_m}; },
       [](Traffic& one) { one.claim.reset(); },
       [](Traffic& one) { one.claim->route = 0; },
       [](Traffic& one) { one.claim->place_m = 2.1; },

@@ -12,7 +12,7 @@
 namespace hlc::coordination {
 namespace {
 
-const PriorityRule kSmallerIdFirst;
+const PriorityOrder kSmallerIdFirst;
 
 Traffic reaching(std::uint8_t vehicle, double x, double y) {
   Traffic traffic;
@@ -29,7 +29,7 @@ TEST(Priority, TheSmallerIdPlansEarlier) {
 
 TEST(Priority, SomeVehiclesMayPlanBeforeAllOthers) {
   std::vector<VehicleId> order{{1}, {2}, {3}, {4}, {5}};
-  std::ranges::sort(order, PriorityRule({{4}, {2}}));
+  std::ranges::sort(order, PriorityOrder(std::vector<VehicleId>{{4}, {2}}));
   EXPECT_EQ(order, (std::vector<VehicleId>{{4}, {2}, {1}, {3}, {5}}));
 }
 

@@ -12,6 +12,7 @@
 #include <random>
 #include <string>
 
+#include "planner/coordination/priorities/strategies.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
 #include "tests/support/num_seeds.hpp"
@@ -25,6 +26,12 @@ using test::plans_in_force_are_free;
 const controller::ControllerStrategies kStrict{.coordination = controller::kStrictCoordination};
 const controller::ControllerStrategies kCooperative{.coordination =
                                                         controller::kCooperativeCoordination};
+const controller::ControllerStrategies kRandomOrder{
+    .priorities = {.strategy = &coordination::kRandomPriorities},
+    .coordination = controller::kCooperativeCoordination};
+const controller::ControllerStrategies kOrderByPlans{
+    .priorities = {.strategy = &coordination::kBestOrder},
+    .coordination = controller::kCooperativeCoordination};
 const controller::ControllerStrategies kAgreed{.coordination = controller::kAgreedCoordination};
 
 std::shared_ptr<const automaton::Subgraph> paper_subgraph() {
@@ -157,7 +164,9 @@ INSTANTIATE_TEST_SUITE_P(
                     LossCase{"Cooperative3", kCooperative, 3},
                     LossCase{"Cooperative5", kCooperative, 5},
                     LossCase{"TwoRounds3", kCooperative, 3, controller::Rounds::kTwo},
-                    LossCase{"TwoRounds5", kCooperative, 5, controller::Rounds::kTwo}),
+                    LossCase{"TwoRounds5", kCooperative, 5, controller::Rounds::kTwo},
+                    LossCase{"RandomPriorities3", kRandomOrder, 3},
+                    LossCase{"BestOrder3", kOrderByPlans, 3, controller::Rounds::kTwo}),
     [](const auto& tested) { return tested.param.name; });
 
 /// All pairs of patterns of two consecutive steps: 4096^2 in the long form, evenly spread ones

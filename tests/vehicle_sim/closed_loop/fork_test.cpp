@@ -135,7 +135,7 @@ TEST(Fork, FromTheFirstStepOnIsTheRunWithTheseRules) {
   EXPECT_FALSE(result::first_difference(agreed, run_with(strategies)));
   EXPECT_TRUE(result::first_difference(agreed, as_it_was()));
   strategies = three_cars().profile.strategies;
-  strategies.plans_before = coordination::PriorityRule({{3}, {2}});
+  strategies.priorities.first = {{3}, {2}};
   const Rows reversed = with(0, {Fork::Priorities{{{3}, {2}}}});
   EXPECT_FALSE(result::first_difference(reversed, run_with(strategies)));
   EXPECT_TRUE(result::first_difference(reversed, as_it_was()));

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "planner/coordination/coupling.hpp"
+
+namespace hlc::coordination {
+
+/// What the plans of a component cost that are made in some order.
+struct OrderCost {
+  std::size_t without_plan{};    ///< vehicles that found no new plan
+  double cost_m2{};              ///< sum over the others, each for its whole reference
+  std::vector<double> costs_m2;  ///< of each vehicle in the order; infinite without a plan
+  std::size_t expanded{};        ///< vertices, at least one for each vehicle
+};
+
+/// True if a is better than b: fewer vehicles without a plan, then less cost.
+[[nodiscard]] inline bool is_better(const OrderCost& a, const OrderCost& b) {
+  return a.without_plan != b.without_plan ? a.without_plan < b.without_plan : a.cost_m2 < b.cost_m2;
+}
+
+/// Plans in this order.
+using TryOrder = std::function<OrderCost(const std::vector<VehicleId>& order)>;
+
+/// A search over orders in a control step tries no further order once its plans have expanded so
+/// many vertices.
+inline constexpr std::size_t kMostOrderExpansions = 2'000;
+
+/// Searches a better order than `start` for the vehicles of one component. Deterministic, and never
+/// worse than `start`.
+/// @param start  a component of the graph, in the order to start from
+using SearchOrder = std::vector<VehicleId> (*)(const CouplingGraph& graph,
+                                               std::vector<VehicleId> start, const TryOrder& plan);
+
+}  // namespace hlc::coordination
