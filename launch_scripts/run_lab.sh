@@ -15,6 +15,8 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --engine NAME           search engine: branch_and_bound (default profile) or best_first (profile 2022); the same called
                           through OMPL's planner interface: ompl_branch_and_bound, ompl_best_first
   --subgraph NAME         of the automaton, instead of the scenario's
+  --priorities NAME       who plans first: constant, random, fca, colouring, waiting_time, explorative, optimal or
+                          best_order (rollout --help explains them), instead of the scenario's
   --policy NAME           by which the cars change the subgraph themselves, or none, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map
   --cars N                number of cars (scenarios circle and lab_cars)
@@ -54,7 +56,7 @@ TEXT
 
 fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 
-scenario=paper_three_cars profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
+scenario=paper_three_cars profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
 simulated_time=true noise_seed="" gains_scale="" stamps="" on_death=stop transport=loopback dds_domain="" out="" preset=release
 bin="" build=true share="" page=true messages=true view=false
@@ -76,7 +78,7 @@ while (($#)); do
   [[ $name != dump-problems ]] || name=dump_problems
   [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a new or an empty folder"
   case "$name" in
-    scenario | profile | engine | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
+    scenario | profile | engine | priorities | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
       simulated_time | noise_seed | gains_scale | stamps | on_death | transport | dds_domain | out | preset | bin | \
       share | page | messages | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
@@ -123,6 +125,7 @@ fi
 choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $engine ]] || choices+=(--engine "$engine")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
+[[ -z $priorities ]] || choices+=(--priorities "$priorities")
 [[ -z $policy ]] || choices+=(--policy "$policy")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")
@@ -220,6 +223,7 @@ scenario: $(quoted "$(realpath "$scenario")")
 profile: $(quoted "$profile")
 engine: $(quoted "$engine")
 subgraph: $(quoted "$subgraph")
+priorities: $(quoted "$priorities")
 policy: $(quoted "$policy")
 map: $(quoted "${map:+$(realpath "$map")}")
 cars: ${cars:-null}

@@ -15,6 +15,8 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --engine NAME           branch_and_bound, best_first, ompl_branch_and_bound or ompl_best_first (default: the
                           scenario's, else the profile's)
   --subgraph NAME         instead of the scenario's
+  --priorities NAME       who plans first: constant, random, fca, colouring, waiting_time, explorative, optimal or
+                          best_order (rollout --help explains them), instead of the scenario's
   --policy NAME           by which the car changes the subgraph itself, or none, instead of the scenario's
   --map FILE              CommonRoad XML instead of the scenario's map
   --cars N                number of cars (scenarios on a circle, or that draw their cars)
@@ -49,12 +51,12 @@ TEXT
 
 fail() { echo "vehicle.sh: $1" >&2; exit 2; }
 
-id="" scenario="" profile=default engine="" dump_problems="" subgraph="" policy="" map="" cars="" seed="" routes=""
+id="" scenario="" profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed="" routes=""
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
 noise_seed="" gains_scale="" stamps="" messages=false on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
-kept_flags=(id scenario profile engine dump_problems subgraph policy map cars seed routes simulated_time transport
+kept_flags=(id scenario profile engine priorities dump_problems subgraph policy map cars seed routes simulated_time transport
   discovery_mode discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
   controller_domain pose noise_seed gains_scale stamps messages on_death bin startup_timeout_s shared_by)
 take_flags() {
@@ -147,6 +149,7 @@ out=$(cd "$out" && pwd)
 choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $engine ]] || choices+=(--engine "$engine")
 [[ -z $subgraph ]] || choices+=(--subgraph "$subgraph")
+[[ -z $priorities ]] || choices+=(--priorities "$priorities")
 [[ -z $policy ]] || choices+=(--policy "$policy")
 [[ -z $map ]] || choices+=(--map "$map")
 [[ -z $cars ]] || choices+=(--cars "$cars")

@@ -64,6 +64,14 @@ void OperatorNotes::note_step(const controller::Controller& controller,
     actions.warn(
         "vehicle stays until another controller is received: none is, and one of them may drive");
   }
+  const coordination::PriorityRule& priorities = controller.options().strategies.priorities;
+  if (priorities.is_beyond(controller.component().size()) && !is_beyond_logged_) {
+    is_beyond_logged_ = true;
+    actions.warn(fmt::format(
+        "{} vehicles are coupled, priorities {} compare orders of {} at most: larger groups get {}",
+        controller.component().size(), priorities.strategy->name,
+        priorities.strategy->most_vehicles, priorities.beyond->name));
+  }
   if (const auto line = stuck_.note(report, controller.subgraph().automaton().step_s)) {
     actions.warn(*line);
   }

@@ -26,7 +26,8 @@ class OperatorNotes {
   /// in a run; the summary counts how often.
   /// Also that the vehicle was disturbed (rules 4 to 6 of plan_in_force.hpp), that it has become
   /// stuck (coordination/waiting.hpp), or stays because no other controller has been received for
-  /// kSilentSteps (coordination/missing.hpp).
+  /// kSilentSteps (coordination/missing.hpp); and once that more vehicles are coupled than the
+  /// priority strategy can compare.
   void note_step(const controller::Controller& controller, const coordination::Report& report,
                  HlcActions& actions);
 
@@ -51,6 +52,7 @@ class OperatorNotes {
   coordination::StuckNotice stuck_;
   bool is_not_shared_logged_{};
   bool is_end_of_sharing_logged_{};
+  bool is_beyond_logged_{};
   std::string last_fault_;
   PoseLeadCheck pose_lead_;
 };

@@ -77,6 +77,7 @@ void check_same(const fs::path& run_folder, const scenario::ScenarioChoices& giv
     comparison.check("--profile", std::optional(given.profile), std::optional(kept.profile));
   }
   comparison.check("--engine", given.engine, kept.engine);
+  comparison.check("--priorities", given.priorities, kept.priorities);
   comparison.check("--subgraph", given.subgraph, kept.subgraph);
   comparison.check("--policy", given.policy, kept.policy);
   comparison.check_file("--map", given.map_file.value_or(fs::path{}), kept.map_file);
@@ -109,11 +110,12 @@ std::string flags_yaml(const scenario::ScenarioChoices& choices) {
   const auto map = choices.map_file ? std::optional(path(*choices.map_file)) : std::nullopt;
   const auto number = [](const auto& value) { return value ? fmt::to_string(*value) : "null"; };
   return fmt::format(
-      "scenario: {}\nprofile: {}\nengine: {}\nsubgraph: {}\npolicy: {}\nmap: {}\ncars: {}\n"
+      "scenario: {}\nprofile: {}\nengine: {}\npriorities: {}\nsubgraph: {}\npolicy: {}\nmap: "
+      "{}\ncars: {}\n"
       "seed: {}\nroutes: {}\nsteps: {}\n",
       text_of(path(choices.file)), text_of(choices.profile), text_of(choices.engine),
-      text_of(choices.subgraph), text_of(choices.policy), text_of(map), number(choices.cars),
-      number(choices.seed), text_of(choices.routes), number(choices.steps));
+      text_of(choices.priorities), text_of(choices.subgraph), text_of(choices.policy), text_of(map),
+      number(choices.cars), number(choices.seed), text_of(choices.routes), number(choices.steps));
 }
 
 scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
@@ -126,6 +128,7 @@ scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
   choices.file = copy_or_original(run_folder, flags.required<std::string>("scenario"));
   choices.profile = flags.required<std::string>("profile");
   choices.engine = text_or_null(flags, "engine");
+  choices.priorities = text_or_null(flags, "priorities");
   choices.subgraph = text_or_null(flags, "subgraph");
   choices.policy = text_or_null(flags, "policy");
   if (const auto map = text_or_null(flags, "map")) {

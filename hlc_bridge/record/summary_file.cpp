@@ -117,6 +117,7 @@ std::string summary_json(const result::RunSummary& summary) {
   json["longest_wait_s"] = result::longest_wait_s(summary);
   json["stuck_vehicles"] = numbers(result::stuck_vehicles(summary));
   json["joint_gap"] = joint_gap_json(summary.joint_gap);
+  json["priorities"] = run.priorities;
   json["rounds"] = run.has_two_rounds ? "two" : "sequential";
   return json.dump(2) + "\n";
 }

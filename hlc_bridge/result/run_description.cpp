@@ -17,6 +17,7 @@ RunDescription describe(const scenario::Scenario& scenario,
   RunDescription description;
   description.scenario = scenario.name;
   description.profile = scenario.profile.name;
+  description.priorities = scenario.profile.strategies.priorities.strategy->name;
   description.engine = scenario::engine_name(scenario.search);
   description.map = scenario.map_file ? scenario.map_file->filename().string() : "";
   description.noise_seed = noise_seed;

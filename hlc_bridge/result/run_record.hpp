@@ -30,7 +30,8 @@ struct VehicleDescription {
 struct RunDescription {
   std::string scenario;
   std::string profile;
-  std::string engine;  ///< of the search
+  std::string engine;                  ///< of the search
+  std::string priorities{"constant"};  ///< name of the strategy
   std::string map;
   std::optional<std::uint64_t> noise_seed;  ///< none: the cars measured exactly
   std::string subgraph;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "planner/coordination/priority.hpp"
+
 namespace hlc::result {
 namespace {
 
@@ -130,12 +132,15 @@ std::string legend(const RunSummary& summary) {
 
 std::string summary_table(const RunSummary& summary) {
   const RunDescription& run = summary.description;
-  std::string text =
-      fmt::format("{}: {} steps of {:g} s, horizon {}, subgraph {}{}{}, profile {}, map {}, {}\n\n",
-                  run.scenario, summary.steps, run.step_s, run.horizon_steps, run.subgraph,
-                  run.policy == policy::kNoPolicy ? "" : ", policy " + run.policy,
-                  run.has_two_rounds ? ", two rounds" : "", run.profile, run.map,
-                  run.noise_seed ? fmt::format("noise seed {}", *run.noise_seed) : "no noise");
+  std::string text = fmt::format(
+      "{}: {} steps of {:g} s, horizon {}, subgraph {}{}{}{}, profile {}, map {}, {}\n\n",
+      run.scenario, summary.steps, run.step_s, run.horizon_steps, run.subgraph,
+      run.policy == policy::kNoPolicy ? "" : ", policy " + run.policy,
+      run.has_two_rounds ? ", two rounds" : "",
+      run.priorities == coordination::kConstantPriorities.name ? ""
+                                                               : ", priorities " + run.priorities,
+      run.profile, run.map,
+      run.noise_seed ? fmt::format("noise seed {}", *run.noise_seed) : "no noise");
   text += fmt::format("{:>3}  {:<8} {:>14} {:>6} {:>19} {:>27} {:>12} {:>13}\n", "", "",
                       "reference", "lap", "vertices, max", "planning time", "tracking", "steps");
   text += fmt::format(kRow, "id", "vehicle", "error [mm]", "[s]", "generated", "expanded", "[ms]",

@@ -21,7 +21,9 @@
 #include "planner/apps/cli.hpp"
 #include "planner/common/program_version.hpp"
 #include "planner/common/yaml_text.hpp"
+#include "planner/coordination/priorities/strategies.hpp"
 #include "planner/scenario/engine_choice.hpp"
+#include "planner/scenario/priority_values.hpp"
 #include "planner/scenario/scenario.hpp"
 
 /// Common to the command lines of all programs: `--name=value` and `--name value`, `--help` and
@@ -201,6 +203,10 @@ inline void declare_scenario_flags(CLI::App& app, scenario::ScenarioChoices& cho
   app.add_option("--engine", choices.engine,
                  std::string("search engine: ") + scenario::kEngineChoices +
                      " (default: the scenario's, else the profile's)");
+  app.add_option(
+         "--priorities", choices.priorities,
+         "who plans first (default: the scenario's): " + scenario::priority_strategies_text())
+      ->check(among(coordination::priority_strategy_names()));
   app.add_option("--subgraph", choices.subgraph, "instead of the scenario's");
   app.add_option("--policy", choices.policy,
                  "by which the controllers change the subgraph themselves, or none (default: the "

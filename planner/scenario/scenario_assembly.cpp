@@ -11,6 +11,7 @@
 #include "planner/policy/speed_zones.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/policy_file.hpp"
+#include "planner/scenario/priority_values.hpp"
 #include "planner/scenario/scenario_vehicles.hpp"
 #include "planner/scenario/search_values.hpp"
 #include "planner/search/search_options.hpp"
@@ -107,8 +108,21 @@ void check_zones(const Node& node, const Scenario& scenario) {
 }
 
 /// Votes need a round of their own. Profile 2022 has such a rule; it plans sequentially then.
-controller::Rounds rounds_of(const ScenarioValues& values, const Profile& profile) {
-  if (!profile.strategies.coordination.commit.needs_votes) return values.rounds;
+/// Comparing orders by their plans needs two rounds.
+controller::Rounds rounds_of(const ScenarioValues& values, const ScenarioChoices& choices,
+                             const Profile& profile) {
+  const coordination::PriorityStrategy& strategy = *profile.strategies.priorities.strategy;
+  const bool needs_votes = profile.strategies.coordination.commit.needs_votes;
+  const bool is_sequential = values.rounds == controller::Rounds::kSequential;
+  if (strategy.search != nullptr && (needs_votes || is_sequential)) {
+    const std::string why = fmt::format("a strategy that compares no orders with {}",
+                                        needs_votes ? "coordination agreed" : "rounds: sequential");
+    if (!choices.priorities) values.node.fail("priorities", why);
+    throw std::invalid_argument(
+        fmt::format("--priorities = {}, must be {}", *choices.priorities, why));
+  }
+  if (!needs_votes && strategy.search != nullptr) return controller::Rounds::kTwo;
+  if (!needs_votes) return values.rounds.value_or(controller::Rounds::kSequential);
   if (values.coordination && values.rounds == controller::Rounds::kTwo) {
     values.node.fail("rounds", "sequential with coordination: agreed");
   }
@@ -134,7 +148,10 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   if (values.coordination) {
     scenario.profile.strategies.coordination = coordination_rules().at(*values.coordination);
   }
-  scenario.rounds = rounds_of(values, scenario.profile);
+  coordination::PriorityRule& priorities = scenario.profile.strategies.priorities;
+  priorities = values.priorities;
+  if (choices.priorities) priorities.strategy = priority_strategy_from_flag(*choices.priorities);
+  scenario.rounds = rounds_of(values, choices, scenario.profile);
   scenario.search = choose_search(values, choices, scenario.profile);
   scenario.is_reconfigurable = values.is_reconfigurable;
   scenario.subgraph = inputs.subgraph;

@@ -8,6 +8,7 @@
 
 #include "planner/controller/controller_options.hpp"
 #include "planner/scenario/policy_file.hpp"
+#include "planner/scenario/priority_values.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "planner/scenario/search_values.hpp"
 
@@ -116,8 +117,8 @@ std::optional<std::string> read_coordination(const Node& node) {
   return node.required<std::string>("coordination", one_of(std::move(names)));
 }
 
-controller::Rounds read_rounds(const Node& node) {
-  if (!node.has("rounds")) return controller::Rounds::kSequential;
+std::optional<controller::Rounds> read_rounds(const Node& node) {
+  if (!node.has("rounds")) return std::nullopt;
   return node.required<std::string>("rounds", one_of({"sequential", "two"})) == "two"
              ? controller::Rounds::kTwo
              : controller::Rounds::kSequential;
@@ -136,6 +137,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .contouring_weight = node.optional<double>("contouring_weight", 0.0,
                                                  between(0.0, controller::kMostContouringWeight)),
       .coordination = read_coordination(node),
+      .priorities = read_priorities(node),
       .rounds = read_rounds(node),
       .engine = read_engine(node),
       .max_expansions = read_max_expansions(node),

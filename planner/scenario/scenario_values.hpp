@@ -62,8 +62,9 @@ struct ScenarioValues {
   double reference_speed_mps{};
   double contouring_weight{};
   std::optional<std::string> coordination{};  ///< of coordination_rules; none: the profile's
-  controller::Rounds rounds{};
-  std::optional<std::string> engine{};  ///< as choose_engine takes it
+  coordination::PriorityRule priorities{};
+  std::optional<controller::Rounds> rounds{};  ///< none: as the priorities need
+  std::optional<std::string> engine{};         ///< as choose_engine takes it
   std::size_t max_expansions{};
   std::vector<search::PlanningWeight> criterion_weights{};
   bool is_reconfigurable{};

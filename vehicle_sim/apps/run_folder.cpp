@@ -35,6 +35,7 @@ void write_configuration(const std::filesystem::path& folder, const scenario::Sc
       .file = scenario.file,
       .profile = scenario.profile.name,
       .engine = scenario::engine_name(scenario.search),
+      .priorities = std::string(scenario.profile.strategies.priorities.strategy->name),
       .subgraph = scenario.subgraph->spec().name,
       .policy = scenario.policy,
       .map_file = scenario.map_file,

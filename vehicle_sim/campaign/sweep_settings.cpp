@@ -1,5 +1,7 @@
 #include "vehicle_sim/campaign/sweep_settings.hpp"
 
+#include "planner/coordination/priorities/strategies.hpp"
+
 namespace hlc::campaign {
 namespace {
 
@@ -37,6 +39,12 @@ void set_coordination(const SweepValue& value, scenario::Scenario& scenario) {
   scenario.profile.strategies.coordination = scenario::coordination_rules().at(value.text);
 }
 
+void set_priorities(const SweepValue& value, scenario::Scenario& scenario) {
+  coordination::PriorityRule& rule = scenario.profile.strategies.priorities;
+  rule.strategy = coordination::priority_strategy(value.text);
+  if (rule.strategy->search != nullptr) scenario.rounds = controller::Rounds::kTwo;
+}
+
 void set_reference_rule(const SweepValue& value, scenario::Scenario& scenario) {
   scenario.profile.reference_rule =
       value.text == "2022" ? road::half_speed_last : road::mean_speed_first;
@@ -50,6 +58,7 @@ const std::vector<SweepSetting>& sweep_settings() {
   static const std::vector<SweepSetting> all{
       {kProfileSetting, false, one_of({"default", "2022"}), {}, {}},
       {"coordination", false, one_of({"agreed", "cooperative", "strict"}), {}, set_coordination},
+      {"priorities", false, one_of(coordination::priority_strategy_names()), {}, set_priorities},
       {"reference_rule", false, one_of({"2022", "later"}), {}, set_reference_rule},
       {"search", false, one_of({"branch_and_bound", "best_first", "2022"}), {}, set_search},
       {"reference_speed_mps", true, above(0.0, 100.0), {}, set_reference_speed},

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "planner/controller/control_loop.hpp"
+#include "planner/coordination/priorities/strategies.hpp"
 #include "tests/planner/controller/east_bound.hpp"
 
 namespace hlc::high_level_controller::operator_notes_test {
@@ -122,6 +123,33 @@ TEST(OperatorNotes, NameTheOwnVehicleAloneIfOthersCannotPlanForIt) {
               ElementsAre(Field(&machine::LogLine::text,
                                 HasSubstr("the others cannot plan for this vehicle 1: it is not "
                                           "seen, misses another controller"))));
+}
+
+TEST(OperatorNotes, LogOnceThatMoreVehiclesAreCoupledThanPrioritiesCompare) {
+  const controller::ControllerStrategies optimal{
+      .priorities = {.strategy = &coordination::kOptimalPriorities}};
+  std::vector<std::unique_ptr<controller::Controller>> all;
+  std::vector<coordination::MeasuredVehicle> states;
+  for (std::uint8_t id = 1; id <= 6; ++id) {
+    all.push_back(controller::east_bound::controller(id, 0.3 * id, optimal));
+    states.push_back(seen(id, 0.0, 0.3 * id));
+  }
+  for (const auto& one : all) static_cast<void>(one->stand_by(at(99, states)));
+  OperatorNotes notes;
+  HlcActions actions;
+  for (std::uint64_t k = 100; k < 102; ++k) {
+    std::vector<coordination::Traffic> traffic;
+    for (const auto& one : all) traffic.push_back(one->observe(at(k, states)));
+    controller::Controller& first = *all.front();
+    first.couple(traffic);
+    ASSERT_EQ(first.component().size(), 6U);
+    for (const auto& one : all) {
+      notes.note_step(first, one->fall_back(coordination::FallbackReason::kLate), actions);
+    }
+  }
+  EXPECT_THAT(lines_of(actions),
+              ElementsAre(machine::warning("6 vehicles are coupled, priorities optimal compare "
+                                           "orders of 5 at most: larger groups get constant")));
 }
 
 TEST(OperatorNotes, LogOnceThatStepsEndLateWithoutNamingPlanningAloneAsTheCause) {

@@ -46,7 +46,7 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
                   "steps", "vehicles", "generated_vertices_sum_max", "min_footprint_distance_m",
                   "collisions", "wall_s", "realtime_factor", "response_time_ms", "trace_sha256",
                   "revision", "host", "engine", "expanded_vertices_sum_max", "policy",
-                  "longest_wait_s", "stuck_vehicles", "joint_gap", "rounds"));
+                  "longest_wait_s", "stuck_vehicles", "joint_gap", "priorities", "rounds"));
   const auto& vehicle = json["vehicles"][0];
   EXPECT_THAT(keys(vehicle), ElementsAre("id", "name", "lap_s", "reference_error_mm",
                                          "tracking_error_mm", "generated_vertices",

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "planner/common/node.hpp"
+#include "planner/coordination/priority.hpp"
+
+namespace hlc::scenario {
+
+/// Key `priorities` of a scenario: the name of a strategy, or
+///
+///     strategy    name (coordination/priorities/strategies.hpp); default constant
+///     first       ids of vehicles that plan before all others, in this order; default none
+///     max_levels  no more computation levels, 1 to 100; default: no limit
+///     beyond      strategy of components with more vehicles than the strategy can search;
+///                 default constant
+///
+/// @param node  the scenario; the key may be absent: constant priorities
+[[nodiscard]] coordination::PriorityRule read_priorities(const Node& node);
+
+/// For --priorities. @throws std::invalid_argument for an unknown name
+[[nodiscard]] const coordination::PriorityStrategy* priority_strategy_from_flag(
+    const std::string& name);
+
+/// One line for each strategy: name and meaning.
+[[nodiscard]] std::string priority_strategies_text();
+
+}  // namespace hlc::scenario
