@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/coordination/priorities/strategies.hpp"
 #include "tests/support/folders.hpp"
 
 namespace hlc::closed_loop {
@@ -75,6 +76,32 @@ TEST(FaultCampaign, NothingIsViolatedInTwoRounds) {
       << describe(totals) << "\n"
       << describe(sequential);
 }
+
+class FaultCampaignWith : public testing::TestWithParam<const coordination::PriorityStrategy*> {};
+
+// Where messages are lost, controllers order the vehicles differently: each may believe that it is
+// the other's turn, or that it is its own.
+TEST_P(FaultCampaignWith, PrioritiesThatChangeViolatesNothing) {
+  const FaultCampaign with({.scenario_folder = test::source_folder() + "/launch_scripts/scenarios",
+                            .cars = 4,
+                            .kinds = fault_kinds_of({}),
+                            .priorities = GetParam()});
+  FaultTotals totals;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const FaultCase the_case = with.draw(seed);
+    const FaultRunResult result = FaultCampaign::run(the_case);
+    EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
+    totals.add(result);
+  }
+  EXPECT_GT(totals.planned, totals.car_steps / 2) << describe(totals);
+}
+
+INSTANTIATE_TEST_SUITE_P(Strategies, FaultCampaignWith,
+                         testing::Values(&coordination::kRandomPriorities,
+                                         &coordination::kMostCollisionsFirst,
+                                         &coordination::kWaitingTimePriorities,
+                                         &coordination::kBestOrder),
+                         [](const auto& tested) { return std::string(tested.param->name); });
 
 TEST(FaultCampaign, WithoutFaultsEverybodyPlansInEveryStep) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

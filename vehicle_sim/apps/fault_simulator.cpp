@@ -18,6 +18,7 @@
 #include "planner/apps/flags.hpp"
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
+#include "planner/coordination/priorities/strategies.hpp"
 #include "vehicle_sim/closed_loop/fault_campaign.hpp"
 
 namespace {
@@ -34,6 +35,7 @@ constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
 
 struct Choices {
   FaultCampaignSettings campaign;
+  std::string priorities{hlc::coordination::kConstantPriorities.name};
   std::vector<std::string> faults;
   std::uint64_t runs{100};
   std::uint64_t seed{1};
@@ -159,9 +161,11 @@ int campaign(const Choices& choices, const std::string& flags) {
 
 /// The flags to repeat before --replay for the same runs.
 std::string flags_of(const Choices& choices) {
-  return fmt::format(" --cars {}{}{}{}{}", choices.campaign.cars,
+  const bool is_constant = choices.priorities == hlc::coordination::kConstantPriorities.name;
+  return fmt::format(" --cars {}{}{}{}{}{}", choices.campaign.cars,
                      choices.campaign.on_lab_network ? " --lab_network" : "",
                      choices.campaign.has_two_rounds ? " --two_rounds" : "",
+                     is_constant ? "" : " --priorities " + choices.priorities,
                      choices.faults.empty() ? "" : " --faults ", fmt::join(choices.faults, ","));
 }
 
@@ -184,6 +188,9 @@ int main(int argc, char** argv) {
       "--two_rounds", choices.campaign.has_two_rounds,
       "cars compute each other's plans (rounds: two); in half of the runs one does not take "
       "part, plans by other rules or computes other bits");
+  app.add_option("--priorities", choices.priorities, "who plans first, in all runs")
+      ->check(hlc::apps::among(hlc::coordination::priority_strategy_names()))
+      ->capture_default_str();
   app.add_option("--runs", choices.runs, "number of runs")
       ->check(hlc::apps::whole(1, kLargestSeed))
       ->capture_default_str();
@@ -212,6 +219,7 @@ int main(int argc, char** argv) {
       choices.campaign.scenario_folder =
           std::filesystem::read_symlink("/proc/self/exe").parent_path() / "scenarios";
     }
+    choices.campaign.priorities = hlc::coordination::priority_strategy(choices.priorities);
     choices.campaign.kinds = hlc::closed_loop::fault_kinds_of(choices.faults);
     if (!keep.empty()) choices.keep.emplace();
     for (const std::string& index : keep) {

@@ -107,7 +107,8 @@ FaultCase FaultCampaign::draw(std::uint64_t seed) const {
     plan.vehicle_ids.push_back(vehicle.id.value);
   }
   run.faults = draw_faults(random.next(), plan);
-  if (settings_.has_two_rounds) {
+  the_case.scenario.profile.strategies.priorities.strategy = settings_.priorities;
+  if (settings_.has_two_rounds || settings_.priorities->search != nullptr) {
     the_case.scenario.rounds = controller::Rounds::kTwo;
     run.lab.different = any_difference(plan.vehicle_ids, random);
   }

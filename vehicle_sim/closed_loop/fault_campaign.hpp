@@ -25,6 +25,8 @@ struct FaultCampaignSettings {
   std::size_t cars{};
   std::vector<FaultKind> kinds;  ///< of the faults; empty: no faults
   bool has_two_rounds{};         ///< with one that differs in half of the runs
+  /// Of all runs. One that compares orders has two rounds, too.
+  const coordination::PriorityStrategy* priorities{&coordination::kConstantPriorities};
 };
 
 /// The case of a seed.
