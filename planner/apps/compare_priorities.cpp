@@ -1,0 +1,225 @@
+// The authors' experiment with many cars, for every priority strategy: planning time of the whole
+// lab, computation levels, costs against the optimal order, deadlocks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "planner/apps/flags.hpp"
+#include "planner/apps/output_files.hpp"
+#include "planner/apps/progress_line.hpp"
+#include "planner/common/csv.hpp"
+#include "planner/common/text_file.hpp"
+#include "planner/coordination/priorities/strategies.hpp"
+#include "planner/rollout/priority_trial.hpp"
+
+namespace {
+
+using hlc::rollout::PriorityTrial;
+
+constexpr int kExitFailed = 2;
+constexpr double kMillisecondsPerSecond = 1e3;
+constexpr double kPercent = 100.0;
+
+struct Flags {
+  hlc::scenario::ScenarioChoices scenario;
+  std::vector<std::size_t> cars;
+  std::vector<std::string> strategies{hlc::coordination::priority_strategy_names()};
+  std::size_t draws{3};
+  std::size_t max_levels{};
+  hlc::apps::OutputFile rows{"--rows", {}};
+};
+
+/// One cell of the experiment.
+struct Cell {
+  std::size_t cars{};  ///< 0: the scenario's own
+  std::string strategy;
+  std::vector<PriorityTrial> trials;  ///< one for each draw
+};
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("scenario,--scenario", flags.scenario.file, "scenario file (YAML)")->required();
+  app.add_option("--cars", flags.cars, "numbers of cars, N,N,...; default: the scenario's")
+      ->delimiter(',')
+      ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
+  app.add_option("--strategies", flags.strategies,
+                 "NAME,NAME,... (default: all): " + hlc::scenario::priority_strategies_text())
+      ->delimiter(',')
+      ->check(hlc::apps::among(hlc::coordination::priority_strategy_names()))
+      ->default_str("");
+  app.add_option("--draws", flags.draws,
+                 "of the cars of a scenario that draws them, seeds 1, 2, ...; others have one")
+      ->check(hlc::apps::whole(1, 10'000))
+      ->capture_default_str();
+  app.add_option("--max_levels", flags.max_levels, "most computation levels; default: no limit")
+      ->check(hlc::apps::whole(1, 100));
+  app.add_option("--steps", flags.scenario.steps, "instead of the scenario's")
+      ->check(hlc::apps::whole(1, 100'000));
+  hlc::apps::declare_profile_flag(app, flags.scenario.profile);
+  hlc::apps::declare_output(app, flags.rows, "write a row per run (CSV)");
+  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
+}
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+hlc::scenario::Scenario scenario_of(const Flags& flags, std::size_t cars,
+                                    const std::string& strategy, std::size_t draw) {
+  hlc::scenario::ScenarioChoices choices = flags.scenario;
+  if (cars != 0) choices.cars = cars;
+  choices.priorities = strategy;
+  if (draw != 0) choices.seed = draw;
+  hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
+  scenario.profile.strategies.priorities.max_levels = flags.max_levels;
+  return scenario;
+}
+
+double quantile(std::vector<double> values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, values.begin() + at);
+  return values[static_cast<std::size_t>(at)];
+}
+
+/// Of all trials of a cell.
+struct Figures {
+  std::vector<double> step_ms;
+  std::size_t levels_sum{};
+  std::size_t levels_max{};
+  double driven_m{};
+  std::size_t planned{};
+  std::size_t vehicle_steps{};
+  std::size_t deadlocked{};
+  double cost_m2{};
+  double optimal_order_m2{};
+  std::size_t compared{};
+  std::size_t worse{};
+  std::vector<hlc::coordination::JointGap> gaps;
+};
+
+Figures figures_of(const std::vector<PriorityTrial>& trials) {
+  Figures sum;
+  for (const PriorityTrial& one : trials) {
+    for (const double step_s : one.step_s) sum.step_ms.push_back(kMillisecondsPerSecond * step_s);
+    for (const std::size_t levels : one.levels) {
+      sum.levels_sum += levels;
+      sum.levels_max = std::max(sum.levels_max, levels);
+    }
+    sum.driven_m += one.driven_m;
+    sum.planned += one.planned;
+    sum.vehicle_steps += one.vehicle_steps;
+    if (one.deadlock_step) ++sum.deadlocked;
+    sum.cost_m2 += one.cost_m2;
+    sum.optimal_order_m2 += one.optimal_order_m2;
+    sum.compared += one.compared_steps;
+    sum.worse += one.worse_steps;
+    std::ranges::copy(one.gaps, std::back_inserter(sum.gaps));
+  }
+  return sum;
+}
+
+std::string row_of(const Cell& cell, double period_s) {
+  const Figures all = figures_of(cell.trials);
+  const auto steps = static_cast<double>(all.step_ms.size());
+  const auto vehicle_steps = static_cast<double>(all.vehicle_steps);
+  const auto gaps = hlc::coordination::joint_gap_figures(all.gaps);
+  return fmt::format(
+      "| {} | {} | {:.2f} | {:.2f} | {:.1f} | {} | {:.1f} | {:.3f} | {} of {} | {} | {} | {} |\n",
+      cell.cars == 0 ? "-" : fmt::to_string(cell.cars), cell.strategy, quantile(all.step_ms, 0.5),
+      quantile(all.step_ms, 0.99), static_cast<double>(all.levels_sum) / steps, all.levels_max,
+      kPercent * static_cast<double>(all.planned) / vehicle_steps,
+      all.driven_m / vehicle_steps / period_s, all.deadlocked, cell.trials.size(),
+      all.compared == 0
+          ? "-"
+          : fmt::format("{:.4f} ({})", all.cost_m2 / all.optimal_order_m2, all.compared),
+      all.worse,
+      gaps ? fmt::format(
+                 "{:.1f} % / {:.1f} %", kPercent * gaps->total,
+                 kPercent * static_cast<double>(gaps->closed) / static_cast<double>(gaps->known))
+           : "-");
+}
+
+constexpr const char* kHeading =
+    "| cars | strategy | step, all cars [ms]: median | p99 | levels: mean | max | new plans [%] | "
+    "speed [m/s] | deadlocked runs | cost / optimal order (steps) | steps with fewer plans | above "
+    "the joint optimum, at most / proven to be it |\n"
+    "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+
+constexpr const char* kLegend =
+    "\nstep: planning and coordination of all cars, one after the other in one process. "
+    "deadlocked: "
+    "a car stood for three horizons.\ncost / optimal order: of the same step from the same "
+    "situation, where no more than 5 cars are coupled and as many found a plan;\nsteps with fewer "
+    "plans than in the optimal order. above the joint optimum: sum of the costs against the sum of "
+    "the bounds.\n";
+
+/// Draws are of scenarios that draw their cars.
+std::vector<std::size_t> draws_of(const Flags& flags, const hlc::scenario::Scenario& scenario) {
+  if (scenario.candidates.empty()) return {0};
+  std::vector<std::size_t> draws;
+  for (std::size_t draw = 1; draw <= flags.draws; ++draw) draws.push_back(draw);
+  return draws;
+}
+
+std::string csv_row(const Cell& cell, std::size_t draw, const PriorityTrial& trial) {
+  const Figures one = figures_of({trial});
+  const auto gaps = hlc::coordination::joint_gap_figures(one.gaps);
+  return hlc::CsvLine(cell.cars, cell.strategy, draw, one.step_ms.size(),
+                      quantile(one.step_ms, 0.5), quantile(one.step_ms, 0.99), one.levels_sum,
+                      one.levels_max, one.planned, one.vehicle_steps, one.driven_m,
+                      trial.deadlock_step, one.compared, one.cost_m2, one.optimal_order_m2,
+                      one.worse, gaps ? std::optional(gaps->total) : std::nullopt)
+      .text();
+}
+
+int run(Flags flags) {
+  hlc::apps::check_output_files({flags.rows}, {flags.scenario.file});
+  hlc::apps::check_each_once("--cars", flags.cars);
+  hlc::apps::check_each_once("--strategies", flags.strategies);
+  if (flags.cars.empty()) flags.cars = {0};
+  std::string rows =
+      "cars,strategy,draw,steps,step_median_ms,step_p99_ms,levels_sum,levels_max,planned,"
+      "vehicle_steps,driven_m,deadlock_step,compared_steps,cost_m2,optimal_order_m2,worse_steps,"
+      "joint_excess\n";
+  const hlc::scenario::Scenario any = scenario_of(flags, flags.cars.front(), "constant", 0);
+  const std::vector<std::size_t> draws = draws_of(flags, any);
+  const hlc::apps::ProgressLine progress(
+      "run", flags.cars.size() * flags.strategies.size() * draws.size());
+  std::string table = kHeading;
+  std::size_t done = 0;
+  for (const std::size_t cars : flags.cars) {
+    for (const std::string& strategy : flags.strategies) {
+      Cell cell{.cars = cars, .strategy = strategy, .trials = {}};
+      for (const std::size_t draw : draws) {
+        cell.trials.push_back(
+            hlc::rollout::try_priorities(scenario_of(flags, cars, strategy, draw), true, now_s));
+        rows += csv_row(cell, draw, cell.trials.back());
+        progress.show(++done);
+      }
+      table += row_of(cell, any.subgraph->automaton().step_s);
+    }
+  }
+  fmt::print("{}: {} steps of {:g} s, horizon {}, subgraph {} of {} trims, {} draws{}\n\n{}{}",
+             any.name, any.steps, any.subgraph->automaton().step_s, any.horizon_steps,
+             any.subgraph->spec().name, any.subgraph->spec().trims.size(), draws.size(),
+             flags.max_levels == 0 ? "" : fmt::format(", at most {} levels", flags.max_levels),
+             table, kLegend);
+  if (flags.rows.file) hlc::write_file(*flags.rows.file, rows);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Drives a scenario with every priority strategy, in one process with cars that follow "
+      "perfectly.",
+      "compare_priorities"};
+  Flags flags;
+  declare(app, flags);
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
+  return hlc::apps::exit_code_of(
+      "compare_priorities", [&flags] { return run(flags); }, kExitFailed);
+}
