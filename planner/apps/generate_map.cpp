@@ -1,6 +1,9 @@
-// Writes the maps that the project ships, launch_scripts/maps/NAME.xml: generate_map --map NAME
+// Writes the maps that the project ships, launch_scripts/maps/NAME.xml: generate_map --map NAME; and
+// towns: generate_map --blocks WxH
 
+#include <charconv>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include "planner/apps/flags.hpp"
@@ -8,20 +11,39 @@
 #include "planner/road/lab_like_map.hpp"
 #include "planner/road/lab_network_map.hpp"
 #include "planner/road/route.hpp"
+#include "planner/road/town_map.hpp"
 
 namespace {
 
 constexpr char kLabLike[] = "lab_like";
 constexpr char kLabNetwork[] = "lab_network";
 
-void run(const std::string& name, const hlc::apps::OutputFile& out) {
+/// "4x3": 4 columns, 3 rows. Nothing if the text is none, or a number is out of bounds.
+std::optional<hlc::road::Blocks> blocks_of(const std::string& text) {
+  const auto number = [](std::string_view digits) {
+    int value = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto [read_until, error] = std::from_chars(digits.data(), end, value);
+    const bool is_number = error == std::errc{} && read_until == end && !digits.empty();
+    return is_number && value >= 1 && value <= hlc::road::Blocks::kMost ? value : 0;
+  };
+  const std::string_view whole = text;
+  const std::size_t cross = whole.find('x');
+  if (cross == std::string_view::npos) return std::nullopt;
+  const hlc::road::Blocks blocks{.columns = number(whole.substr(0, cross)),
+                                 .rows = number(whole.substr(cross + 1))};
+  return blocks.columns > 0 && blocks.rows > 0 ? std::optional(blocks) : std::nullopt;
+}
+
+void write(const hlc::road::LaneletMap& map, const hlc::apps::OutputFile& out) {
+  hlc::road::write_lanelet_map(map, *out.file);
+  std::cout << map.lanelets.size() << " lanelets\n";
+}
+
+void run(const std::string& name, const std::string& blocks, const hlc::apps::OutputFile& out) {
   hlc::apps::check_output_files({out});
-  if (name == kLabNetwork) {
-    const hlc::road::LaneletMap map = hlc::road::lab_network_map();
-    hlc::road::write_lanelet_map(map, *out.file);
-    std::cout << map.lanelets.size() << " lanelets\n";
-    return;
-  }
+  if (const auto town = blocks_of(blocks)) return write(hlc::road::town_map(*town), out);
+  if (name == kLabNetwork) return write(hlc::road::lab_network_map(), out);
   const hlc::road::RoadNetwork network = hlc::road::lab_like_map();
   hlc::road::write_lanelet_map(network.map, *out.file);
   for (const hlc::road::NamedRoute& route : network.routes) {
@@ -37,16 +59,26 @@ void run(const std::string& name, const hlc::apps::OutputFile& out) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Writes a CommonRoad 2020a map of the same shape as the lab's.", "generate_map"};
+  CLI::App app{"Writes a CommonRoad 2020a map: of the same shape as the lab's, or of a town.",
+               "generate_map"};
   std::string name = kLabLike;
+  std::string blocks;
   hlc::apps::OutputFile out{"--out", {}};
-  app.add_option("--map", name,
+  CLI::Option* map =
+      app.add_option("--map", name,
                  "lab_like: three circuits, which are printed; lab_network: the lab's whole road "
                  "network with its lanelet numbers")
       ->check(hlc::apps::among({kLabLike, kLabNetwork}))
       ->capture_default_str();
+  const std::string allowed = fmt::format("WxH, each in 1 ... {}", hlc::road::Blocks::kMost);
+  app.add_option("--blocks", blocks,
+                 "a town instead: W crossings from west to east, H from south to north, with the "
+                 "roads between and around them")
+      ->check(hlc::apps::allowing([](const std::string& text) { return blocks_of(text).has_value(); },
+                                  allowed, allowed))
+      ->excludes(map);
   hlc::apps::declare_output(app, out, "file to write (XML)")->required();
   app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
-  return hlc::apps::exit_code_of("generate_map", [&] { run(name, out); });
+  return hlc::apps::exit_code_of("generate_map", [&] { run(name, blocks, out); });
 }

@@ -101,7 +101,8 @@ std::vector<LaneletId> random_tour(const LaneletMap& map, LaneletId start, std::
   std::set<LaneletId> unvisited;
   for (const auto& [id, next] : successors) unvisited.insert(id);
   for (const LaneletId id : tour) unvisited.erase(id);
-  while (!unvisited.empty()) {
+  const bool visits_all = successors.size() <= kRandomLanelets;
+  while (visits_all && !unvisited.empty()) {
     const std::size_t from = tour.size();
     append_way(tour, unvisited, successors);
     for (std::size_t i = from; i < tour.size(); ++i) unvisited.erase(tour[i]);

@@ -14,7 +14,8 @@ namespace hlc::road {
 /// From `start` it goes through 200 lanelets, each a successor of the one before, all successors
 /// among those being equally likely; then it visits the lanelets not yet visited, always the
 /// nearest by number of lanelets, and returns to `start`. It therefore passes through all of them,
-/// most of them several times, and repeats only after that.
+/// most of them several times, and repeats only after that. Where there are more than 200, as in a
+/// town, it returns at once: tours through all of them would be kilometres long.
 ///
 /// The list begins with the lanelet before `start`: the place of a car that stands a little behind
 /// its start is then on the tour's first lanelets, too, and not where it comes by later.

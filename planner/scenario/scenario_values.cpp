@@ -92,11 +92,13 @@ void parse_vehicles(const Node& scenario, ScenarioValues& values) {
   if (values.vehicles.empty()) scenario.fail("vehicles", "a list with at least one vehicle");
 }
 
-DrawValues parse_draw(const Node& node) {
+DrawValues parse_draw(const Node& node, bool has_random_routes) {
   DrawValues draw{.cars = node.required<std::size_t>("cars", between(1.0, kMaxVehicleId)),
                   .routes = {},
                   .node = node};
-  for (const Node& route : node.list("routes")) draw.routes.push_back(route.as<std::string>());
+  if (!has_random_routes) {
+    for (const Node& route : node.list("routes")) draw.routes.push_back(route.as<std::string>());
+  }
   node.check_no_unknown_keys();
   return draw;
 }
@@ -154,7 +156,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
     values.has_right_of_way = node.optional<bool>("right_of_way", false);
     parse_routes(node, values);
     if (node.has("draw")) {
-      values.draw = parse_draw(node.map("draw"));
+      values.draw = parse_draw(node.map("draw"), values.has_random_routes);
     } else {
       parse_vehicles(node, values);
     }

@@ -48,7 +48,7 @@ struct CircleValues {
 /// `draw`.
 struct DrawValues {
   std::size_t cars{};
-  std::vector<std::string> routes;
+  std::vector<std::string> routes;  ///< none with random routes, which begin anywhere
   Node node;
 };
 

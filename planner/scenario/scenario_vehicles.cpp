@@ -95,6 +95,29 @@ void add_named_vehicles(const ScenarioValues& values, const road::LaneletMap& ma
   }
 }
 
+/// In the middle of each lanelet that is the only way on from those before it: not on a crossing.
+void add_lanelets(const road::LaneletMap& map, Scenario& scenario) {
+  const auto leads_to_one = [&](road::LaneletId before) {
+    return map.lanelets.at(before).successors.size() == 1;
+  };
+  for (const auto& [id, lanelet] : map.lanelets) {
+    if (!std::ranges::all_of(lanelet.predecessors, leads_to_one)) continue;
+    const road::Route route = road::build_route(map, {id}, false);
+    scenario.candidates.push_back(vehicle_on(route, route.path.length_m() / 2.0));
+    scenario.candidates.back().name = fmt::format("from {}", id);
+  }
+}
+
+void add_named_routes(const DrawValues& draw, const Routes& routes, Scenario& scenario) {
+  const std::vector<Node> listed = draw.node.list("routes");
+  for (std::size_t i = 0; i < draw.routes.size(); ++i) {
+    const auto route = routes.find(draw.routes[i]);
+    if (route == routes.end()) listed[i].fail("the name of an entry of `routes`");
+    scenario.candidates.push_back(vehicle_on(route->second, 0.0));
+    scenario.candidates.back().name = draw.routes[i];
+  }
+}
+
 void add_further_candidates(const DrawValues& draw, const Routes& routes, Scenario& scenario) {
   for (const std::string& name : draw.routes) {
     const road::Route& route = routes.at(name);
@@ -107,13 +130,6 @@ void add_further_candidates(const DrawValues& draw, const Routes& routes, Scenar
 
 void add_drawn_cars(const DrawValues& draw, const Routes& routes, const ScenarioChoices& choices,
                     Scenario& scenario) {
-  const std::vector<Node> listed = draw.node.list("routes");
-  for (std::size_t i = 0; i < draw.routes.size(); ++i) {
-    const auto route = routes.find(draw.routes[i]);
-    if (route == routes.end()) listed[i].fail("the name of an entry of `routes`");
-    scenario.candidates.push_back(vehicle_on(route->second, 0.0));
-    scenario.candidates.back().name = draw.routes[i];
-  }
   const std::size_t cars = choices.cars.value_or(draw.cars);
   const auto draw_most = [&] {
     return draw_cars(scenario, std::min<std::size_t>(cars, kMaxVehicleId), scenario.seed);
@@ -125,12 +141,14 @@ void add_drawn_cars(const DrawValues& draw, const Routes& routes, const Scenario
       scenario.vehicles = draw_most();
     }
   } catch (const std::runtime_error& error) {
-    draw.node.fail("routes", fmt::format("starts for random routes: {}", error.what()));
+    draw.node.fail(draw.routes.empty() ? "cars" : "routes",
+                   fmt::format("starts for random routes: {}", error.what()));
   }
   const std::size_t fitting = scenario.vehicles.size();
   if (fitting == cars) return;
   const std::string allowed =
-      fmt::format("in 1 ... {}: no more cars fit on the routes of `draw`", fitting);
+      fmt::format("in 1 ... {}: no more cars fit on {}", fitting,
+                  draw.routes.empty() ? "the map's lanes" : "the routes of `draw`");
   if (!choices.cars) draw.node.fail("cars", allowed);
   throw std::invalid_argument(fmt::format("--cars = {}, must be {}", cars, allowed));
 }
@@ -150,6 +168,11 @@ void add_vehicles_on_map(const ScenarioValues& values, const road::LaneletMap& m
   std::ranges::sort(scenario.routes, {}, &road::DrivableRoute::name);
   scenario.seed = choices.seed.value_or(values.seed);
   if (values.draw) {
+    if (values.has_random_routes) {
+      add_lanelets(map, scenario);
+    } else {
+      add_named_routes(*values.draw, routes, scenario);
+    }
     add_drawn_cars(*values.draw, routes, choices, scenario);
   } else {
     add_named_vehicles(values, map, routes, scenario);
