@@ -44,6 +44,8 @@ constexpr Column<double> kTimes[] = {
     {"planning_std_ms", &campaign::RunFigures::planning_std_ms},
     {"planning_max_ms", &campaign::RunFigures::planning_max_ms},
     {"exceeding_step_share", &campaign::RunFigures::exceeding_step_share},
+    {"step_p99_ms", &campaign::RunFigures::step_p99_ms},
+    {"step_max_ms", &campaign::RunFigures::step_max_ms},
     {"wall_s", &campaign::RunFigures::wall_s},
     {"wall_planning_s", &campaign::RunFigures::wall_planning_s},
     {"wall_coordination_s", &campaign::RunFigures::wall_coordination_s},

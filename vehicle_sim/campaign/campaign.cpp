@@ -162,6 +162,7 @@ CampaignResult result_of(const DrivenRun& run, std::optional<std::uint64_t> nois
                                    experiment.drives),
       .fault = {},
       .wall = experiment.wall,
+      .steps_s = experiment.steps_s,
       .costs = driven_costs(rows, experiment.drives, facts, run.scenario.subgraph->automaton()),
       .excess = zone_excess(zones, experiment.drives, facts),
       .use = subgraph_use(rows)};

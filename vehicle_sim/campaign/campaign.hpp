@@ -55,6 +55,7 @@ struct CampaignResult {
   result::RunSummary summary;  ///< without revision and host
   std::string fault;           ///< danger_of(summary): why the run does not count; empty if it does
   closed_loop::WallTimes wall;
+  std::vector<double> steps_s;  ///< Experiment::steps_s
   DrivenCosts costs;
   std::optional<ZoneExcess> excess;  ///< none without zones, or if no car entered one
   SubgraphUse use;

@@ -95,6 +95,16 @@ std::vector<TableQuantity> search_effort() {
        2,
        [](const RunFigures& run) { return std::optional(100.0 * run.exceeding_step_share); },
        {}},
+      {"Computation time of a step of all cars, 99 % [ms]",
+       "step_p99_ms",
+       2,
+       [](const RunFigures& run) { return std::optional(run.step_p99_ms); },
+       {}},
+      {"Max. computation time of a step of all cars [ms]",
+       "step_max_ms",
+       2,
+       [](const RunFigures& run) { return std::optional(run.step_max_ms); },
+       {}},
   };
 }
 

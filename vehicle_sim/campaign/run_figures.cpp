@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "hlc_bridge/result/statistics.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
 namespace hlc::campaign {
@@ -74,6 +75,10 @@ RunFigures with_figures(RunFigures heading, const CampaignResult& result) {
   figures.longest_wait_s = result::longest_wait_s(summary);
   figures.stuck_vehicles = result::stuck_vehicles(summary).size();
   add_planning(summary.vehicles, figures);
+  if (const auto steps_s = result::statistics(result.steps_s)) {
+    figures.step_p99_ms = 1e3 * steps_s->p99;
+    figures.step_max_ms = 1e3 * steps_s->max;
+  }
   figures.wall_s = summary.wall_s;
   figures.wall_planning_s = result.wall.planning_s;
   figures.wall_coordination_s = result.wall.coordination_s;

@@ -34,8 +34,10 @@ struct RunFigures {
   double planning_std_ms{};
   double planning_max_ms{};
   double exceeding_step_share{};  ///< of the plans, those that took longer than a step
-  double deviation_max_mm{};      ///< footprint to plan, any tick; without drift near full lock
-  double wall_s{};                ///< of the whole run; its parts as in WallTimes
+  double step_p99_ms{};           ///< of all cars together (Experiment::steps_s)
+  double step_max_ms{};
+  double deviation_max_mm{};  ///< footprint to plan, any tick; without drift near full lock
+  double wall_s{};            ///< of the whole run; its parts as in WallTimes
   double wall_planning_s{};
   double wall_coordination_s{};
   double wall_vehicles_s{};

@@ -144,6 +144,7 @@ class Lab {
   }
 
   void answer_list(Nanoseconds t_now) {
+    const Nanoseconds from = cpu_clock_();
     const StepIndex step{step_at(t_now, settings_.period)};
     if (start_) apply_forks(step);
     std::vector<std::int32_t> active;
@@ -166,6 +167,7 @@ class Lab {
       if (reports[i].report.status == coordination::StepStatus::kStandby) continue;
       member.choice.end_step(member.hlc.controller(), reports[i].report);
     }
+    if (start_) experiment_.steps_s.push_back(1e-9 * static_cast<double>(cpu_clock_() - from));
     // Lab control ends a run in logical time when a process is gone.
     for (const VehicleId gone : forks_->gone())
       run_.report({.report = {.vehicle = gone, .step = step}});

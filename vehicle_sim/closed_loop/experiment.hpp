@@ -55,6 +55,9 @@ struct Experiment {
   std::vector<ReportRecord> reports;
   result::Drives drives;
   WallTimes wall;
+  /// Processor time (Clocks::cpu) of each step of all controllers: from the state list to the
+  /// commands and reports, without the simulated vehicles.
+  std::vector<double> steps_s;
 };
 
 /// A whole run of the scenario in logical time within this process and thread: lab control
