@@ -14,8 +14,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "planner/apps/cli.hpp"
@@ -81,15 +83,32 @@ inline CLI::Validator within(double min, double max) {
   return allowing(is_good, (is_bounded ? "in " : "") + shown, shown);
 }
 
+/// The number, if the text is digits only and the number in min ... max.
+inline std::optional<std::uint64_t> whole_number(std::string_view text, std::uint64_t min,
+                                                 std::uint64_t max) {
+  std::uint64_t value{};
+  const char* const end = text.data() + text.size();
+  const auto [read_until, error] = std::from_chars(text.data(), end, value);
+  const bool is_good = error == std::errc{} && read_until == end && value >= min && value <= max;
+  return is_good ? std::optional(value) : std::nullopt;
+}
+
+/// Two of them in 1 ... max with a character between them, as "4x3".
+inline std::optional<std::pair<std::uint64_t, std::uint64_t>> two_whole_numbers(
+    std::string_view text, char between, std::uint64_t max) {
+  const std::size_t at = text.find(between);
+  if (at == std::string_view::npos) return std::nullopt;
+  const auto first = whole_number(text.substr(0, at), 1, max);
+  const auto second = whole_number(text.substr(at + 1), 1, max);
+  return first && second ? std::optional(std::pair(*first, *second)) : std::nullopt;
+}
+
 /// For flags with whole numbers: digits only. CLI11 converts "-5" to a large unsigned number, and a
 /// number that is too large to the largest.
 inline CLI::Validator whole(std::uint64_t min, std::uint64_t max) {
   const std::string shown = fmt::format("{} ... {}", min, max);
   const auto is_good = [min, max](const std::string& text) {
-    std::uint64_t value{};
-    const char* const end = text.data() + text.size();
-    const auto [read_until, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc{} && read_until == end && value >= min && value <= max;
+    return whole_number(text, min, max).has_value();
   };
   return allowing(is_good, "in " + shown, shown);
 }

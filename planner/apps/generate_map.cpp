@@ -1,7 +1,6 @@
-// Writes the maps that the project ships, launch_scripts/maps/NAME.xml: generate_map --map NAME; and
-// towns: generate_map --blocks WxH
+// Writes the maps that the project ships, launch_scripts/maps/NAME.xml: generate_map --map NAME;
+// and towns: generate_map --blocks WxH
 
-#include <charconv>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -20,19 +19,10 @@ constexpr char kLabNetwork[] = "lab_network";
 
 /// "4x3": 4 columns, 3 rows. Nothing if the text is none, or a number is out of bounds.
 std::optional<hlc::road::Blocks> blocks_of(const std::string& text) {
-  const auto number = [](std::string_view digits) {
-    int value = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto [read_until, error] = std::from_chars(digits.data(), end, value);
-    const bool is_number = error == std::errc{} && read_until == end && !digits.empty();
-    return is_number && value >= 1 && value <= hlc::road::Blocks::kMost ? value : 0;
-  };
-  const std::string_view whole = text;
-  const std::size_t cross = whole.find('x');
-  if (cross == std::string_view::npos) return std::nullopt;
-  const hlc::road::Blocks blocks{.columns = number(whole.substr(0, cross)),
-                                 .rows = number(whole.substr(cross + 1))};
-  return blocks.columns > 0 && blocks.rows > 0 ? std::optional(blocks) : std::nullopt;
+  const auto numbers = hlc::apps::two_whole_numbers(text, 'x', hlc::road::Blocks::kMost);
+  if (!numbers) return std::nullopt;
+  return hlc::road::Blocks{.columns = static_cast<int>(numbers->first),
+                           .rows = static_cast<int>(numbers->second)};
 }
 
 void write(const hlc::road::LaneletMap& map, const hlc::apps::OutputFile& out) {
@@ -65,17 +55,18 @@ int main(int argc, char** argv) {
   std::string blocks;
   hlc::apps::OutputFile out{"--out", {}};
   CLI::Option* map =
-      app.add_option("--map", name,
-                 "lab_like: three circuits, which are printed; lab_network: the lab's whole road "
-                 "network with its lanelet numbers")
-      ->check(hlc::apps::among({kLabLike, kLabNetwork}))
-      ->capture_default_str();
+      app.add_option(
+             "--map", name,
+             "lab_like: three circuits, which are printed; lab_network: the lab's whole road "
+             "network with its lanelet numbers")
+          ->check(hlc::apps::among({kLabLike, kLabNetwork}))
+          ->capture_default_str();
   const std::string allowed = fmt::format("WxH, each in 1 ... {}", hlc::road::Blocks::kMost);
   app.add_option("--blocks", blocks,
                  "a town instead: W crossings from west to east, H from south to north, with the "
                  "roads between and around them")
-      ->check(hlc::apps::allowing([](const std::string& text) { return blocks_of(text).has_value(); },
-                                  allowed, allowed))
+      ->check(hlc::apps::allowing(
+          [](const std::string& text) { return blocks_of(text).has_value(); }, allowed, allowed))
       ->excludes(map);
   hlc::apps::declare_output(app, out, "file to write (XML)")->required();
   app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");

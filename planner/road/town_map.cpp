@@ -12,9 +12,10 @@
 namespace hlc::road {
 namespace {
 
-constexpr double kApart_m = 2.3;     // crossings, centre to centre
-constexpr double kHalf_m = 0.6;      // centre of a crossing to where its roads begin
-constexpr int kPieces = 2;           // lanelets of a lane between two crossings
+constexpr double kApart_m = 2.4;      // crossings, centre to centre
+constexpr double kHalf_m = 0.65;      // centre of a crossing to where its roads begin
+constexpr double kAside_m = 0.10;     // middle of a road to that of a lane
+constexpr int kPieces = 2;            // lanelets of a lane between two crossings
 constexpr double kRamp_share = 0.15;  // of a turn's length, at either end
 
 constexpr int kLeft = 1;  // directions count counterclockwise: east 0, north, west, south
@@ -41,7 +42,7 @@ Pose in_lane(const Place& place, int direction, double ahead_m) {
   return shifted({.x_m = kApart_m * place.column + ahead_m * std::cos(heading),
                   .y_m = kApart_m * place.row + ahead_m * std::sin(heading),
                   .heading_rad = heading},
-                 -kLaneWidth_m / 2.0);
+                 -kAside_m);
 }
 
 Knots turn_of(double length_m, double curvature_per_m) {
@@ -101,7 +102,7 @@ class Town {
       const int out = (direction + side) % kDirections;
       if (!has_arm(place, out)) continue;
       const double sign = side == kLeft ? 1.0 : -1.0;
-      const CurvatureCurve curve = turn(begin, sign, kHalf_m + sign * kLaneWidth_m / 2.0);
+      const CurvatureCurve curve = turn(begin, sign, kHalf_m + sign * kAside_m);
       add_lane(stretch(curve, 0.0, curve.length_m(), begin, in_lane(place, out, kHalf_m)));
     }
   }

@@ -19,12 +19,12 @@ std::filesystem::path folder_of_run(const EvaluationFiles& files, std::size_t ru
 
 }  // namespace
 
-std::size_t drive_campaign(const campaign::Campaign& campaign, std::size_t jobs, bool keep_runs,
-                           EvaluationFiles& files) {
+void drive_campaign(const campaign::Campaign& campaign, const DriveChoices& choices,
+                    EvaluationFiles& files) {
   const auto is_done = [&](std::size_t run) {
-    return files.has(run) && (!keep_runs || is_whole_run_folder(folder_of_run(files, run)));
+    return files.has(run) && (!choices.keep_runs || is_whole_run_folder(folder_of_run(files, run)));
   };
-  for_each_number(missing_runs(campaign.runs().size(), is_done), "run", jobs, [&](std::size_t run) {
+  const auto drive = [&](std::size_t run) {
     std::optional<campaign::DrivenRun> driven;
     std::optional<campaign::CampaignResult> result;
     std::string failure;
@@ -35,7 +35,7 @@ std::size_t drive_campaign(const campaign::Campaign& campaign, std::size_t jobs,
       failure = error.what();
     }
     // Outside the try block: a folder or record that cannot be written is no failure of the run.
-    if (keep_runs && driven) {
+    if (choices.keep_runs && driven) {
       write_run_folder(folder_of_run(files, run), driven->scenario, campaign.plan().noise_seed,
                        driven->experiment);
     }
@@ -44,8 +44,9 @@ std::size_t drive_campaign(const campaign::Campaign& campaign, std::size_t jobs,
     } else {
       files.add_failure(run, failure);
     }
-  });
-  return num_failed(files.figures());
+  };
+  for_each_number(missing_runs(runs_of(choices.shard, campaign.runs().size()), is_done), "run",
+                  choices.jobs, drive);
 }
 
 }  // namespace hlc::apps

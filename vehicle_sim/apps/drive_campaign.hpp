@@ -3,15 +3,21 @@
 #include <cstddef>
 
 #include "vehicle_sim/apps/evaluation_files.hpp"
+#include "vehicle_sim/apps/shard.hpp"
 
 namespace hlc::apps {
 
-/// Drives the missing runs, `jobs` at a time, with a progress line on stderr. Runs that cannot be
-/// driven are recorded with their reason and do not stop the others.
-/// @param keep_runs  also writes each run's folder, runs/<number>; a run without one is missing
-/// @return the number of runs that do not count, including those driven before
+struct DriveChoices {
+  std::size_t jobs{1};  ///< at a time
+  /// Also writes each run's folder, runs/<number>; a run without one is missing.
+  bool keep_runs{false};
+  Shard shard;  ///< the only runs to drive
+};
+
+/// Drives the missing runs with a progress line on stderr. Runs that cannot be driven are recorded
+/// with their reason and do not stop the others.
 /// @throws std::runtime_error if a record cannot be written
-std::size_t drive_campaign(const campaign::Campaign& campaign, std::size_t jobs, bool keep_runs,
-                           EvaluationFiles& files);
+void drive_campaign(const campaign::Campaign& campaign, const DriveChoices& choices,
+                    EvaluationFiles& files);
 
 }  // namespace hlc::apps

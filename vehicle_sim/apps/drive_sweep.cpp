@@ -3,12 +3,13 @@
 #include <set>
 
 #include "vehicle_sim/apps/missing_runs.hpp"
+#include "vehicle_sim/apps/shard.hpp"
 
 namespace hlc::apps {
 
 std::size_t drive_sweep(campaign::Sweep& sweep, std::size_t jobs, SweepFiles& files) {
-  const std::vector<std::size_t> missing =
-      missing_runs(sweep.runs().size(), [&](std::size_t run) { return files.has(run); });
+  const std::vector<std::size_t> missing = missing_runs(
+      runs_of({}, sweep.runs().size()), [&](std::size_t run) { return files.has(run); });
   std::set<std::size_t> automata;
   for (const std::size_t run : missing) automata.insert(sweep.automaton_of(run));
   for_each_number({automata.begin(), automata.end()}, "automaton", jobs,

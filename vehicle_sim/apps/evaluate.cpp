@@ -15,6 +15,9 @@
 #include "vehicle_sim/apps/drive_sweep.hpp"
 #include "vehicle_sim/apps/evaluation_figures.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
+#include "vehicle_sim/apps/evaluation_results.hpp"
+#include "vehicle_sim/apps/merged_rows.hpp"
+#include "vehicle_sim/apps/missing_runs.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 #include "vehicle_sim/campaign/tradeoff.hpp"
 
@@ -26,8 +29,9 @@ struct Choices {
   hlc::campaign::CampaignPlan plan;
   std::vector<std::string> scenarios{"paper_three_cars", "paper_red_alone"};
   std::filesystem::path scenario_folder;
-  std::size_t jobs{1};
-  bool keep_runs{false};
+  hlc::apps::DriveChoices drive;
+  std::string shard;                          ///< "2/20"; empty: all runs
+  std::vector<std::filesystem::path> merged;  ///< not empty: no run is driven
   std::filesystem::path out;
   hlc::apps::FigureChoices figures;
   bool is_sweep{false};  ///< otherwise a campaign
@@ -37,6 +41,7 @@ struct Choices {
 constexpr char kAllFigures[] = "all";
 constexpr int kExitNotWritten = 3;
 constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
+constexpr std::uint64_t kMostShards = 100'000;
 
 /// A file, or the name of one in the folder of scenarios.
 std::filesystem::path scenario_file(const Choices& choices, const std::string& name) {
@@ -135,7 +140,7 @@ int run_sweep(const Choices& choices, const std::string& command) {
   hlc::campaign::Sweep sweep = read_sweep(choices);
   hlc::apps::SweepFiles files(choices.out, sweep);
   const Clock::time_point begin = Clock::now();
-  const std::size_t failed = hlc::apps::drive_sweep(sweep, choices.jobs, files);
+  const std::size_t failed = hlc::apps::drive_sweep(sweep, choices.drive.jobs, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   files.finish(origin_of(command));
   std::printf("%zu runs, %zu do not count, %.1f s; %s\n", sweep.runs().size(), failed, wall_s,
@@ -143,30 +148,52 @@ int run_sweep(const Choices& choices, const std::string& command) {
   return failed == 0 ? 0 : 1;
 }
 
+/// Prints the outcome of the rows. @return the exit code
+int report(const hlc::apps::RunLog& rows, double wall_s, const char* results) {
+  const std::vector<hlc::campaign::RunFigures> figures = hlc::apps::figures_of_rows(rows);
+  const auto stuck = std::ranges::count_if(
+      figures, [](const hlc::campaign::RunFigures& run) { return run.stuck_vehicles > 0; });
+  const std::size_t failed = hlc::apps::num_failed(figures);
+  std::printf("%zu runs, %zu failed, %td with a car stuck at the end, %.1f s; %s\n", figures.size(),
+              failed, stuck, wall_s, (rows.folder() / results).c_str());
+  if (std::ranges::any_of(figures, hlc::campaign::has_policy)) {
+    std::printf("\n%s", hlc::campaign::tradeoff_markdown(figures).c_str());
+  }
+  return failed == 0 ? 0 : 1;
+}
+
+int merge(const Choices& choices, const std::string& command) {
+  const Clock::time_point begin = Clock::now();
+  const hlc::apps::RunRows merged = hlc::apps::merge_rows(choices.merged);
+  hlc::apps::RunLog rows(choices.out, merged.heading);
+  if (rows.size() > 0) {
+    throw std::invalid_argument("--out = " + choices.out.string() +
+                                ": has rows already, must be a new folder");
+  }
+  for (const auto& [run, row] : merged.rows) rows.append(run, row);
+  hlc::apps::write_results(rows, origin_of(command));
+  return report(rows, std::chrono::duration<double>(Clock::now() - begin).count(), "table.md");
+}
+
 int run(Choices choices, const std::string& command) {
   if (choices.is_sweep) return run_sweep(choices, command);
+  if (!choices.merged.empty()) return merge(choices, command);
   const hlc::campaign::Campaign campaign = read(choices);
   hlc::apps::EvaluationFiles files(choices.out, campaign);
   const Clock::time_point begin = Clock::now();
-  const std::size_t failed =
-      hlc::apps::drive_campaign(campaign, choices.jobs, choices.keep_runs, files);
+  hlc::apps::drive_campaign(campaign, choices.drive, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  files.finish(origin_of(command));
-  const auto stuck = std::ranges::count_if(
-      files.figures(), [](const hlc::campaign::RunFigures& run) { return run.stuck_vehicles > 0; });
-  std::printf("%zu runs, %zu failed, %td with a car stuck at the end, %.1f s; %s\n",
-              campaign.runs().size(), failed, stuck, wall_s, (choices.out / "table.md").c_str());
-  if (!campaign.plan().policies.empty()) {
-    std::printf("\n%s", hlc::campaign::tradeoff_markdown(files.figures()).c_str());
-  }
+  if (!choices.shard.empty()) return report(files.rows(), wall_s, "runs.jsonl");
+  hlc::apps::write_results(files.rows(), origin_of(command));
+  const int code = report(files.rows(), wall_s, "table.md");
   draw(campaign, choices);
-  return failed == 0 ? 0 : 1;
+  return code;
 }
 
 void declare_campaign(CLI::App& app, Choices& choices) {
   choices.plan.profiles = {"default"};
   choices.scenario_folder = "launch_scripts/scenarios";
-  choices.jobs = std::max(1U, std::thread::hardware_concurrency());
+  choices.drive.jobs = std::max(1U, std::thread::hardware_concurrency());
   app.add_option("--scenario", choices.scenarios,
                  "scenario files, or names of files in --scenario_folder")
       ->delimiter(',')
@@ -202,10 +229,10 @@ void declare_campaign(CLI::App& app, Choices& choices) {
   app.add_option("--noise_seed", choices.plan.noise_seed,
                  "measurement noise of the simulated cars; default: none")
       ->check(hlc::apps::whole(0, kLargestSeed));
-  app.add_option("--jobs", choices.jobs, "runs at a time")
+  app.add_option("--jobs", choices.drive.jobs, "runs at a time")
       ->check(hlc::apps::whole(1, 256))
       ->capture_default_str();
-  app.add_flag("--keep_runs", choices.keep_runs,
+  app.add_flag("--keep_runs", choices.drive.keep_runs,
                "also keep the run folder of each run, OUT/runs/<number>, as run_lab.sh leaves it, "
                "for export_commonroad and summarize");
   app.add_option("--out", choices.out,
@@ -226,20 +253,48 @@ void declare_figures(CLI::App& app, Choices& choices) {
                  "../automata/pareto_example.yaml, seen from --scenario_folder");
 }
 
+/// "2/20": the second of 20. Nothing if the text is none.
+std::optional<hlc::apps::Shard> shard_of(const std::string& text) {
+  const auto numbers = hlc::apps::two_whole_numbers(text, '/', kMostShards);
+  if (!numbers || numbers->first > numbers->second) return std::nullopt;
+  return hlc::apps::Shard{.index = numbers->first, .count = numbers->second};
+}
+
+/// `option` is alone with these and --help.
+void exclude_all_but(CLI::App& app, CLI::Option* option, const std::vector<std::string>& names) {
+  for (CLI::Option* other : app.get_options()) {
+    const std::string name = other->get_name();
+    if (name == "--help" || other == option || std::ranges::find(names, name) != names.end())
+      continue;
+    option->excludes(other);
+  }
+}
+
+void declare_shards(CLI::App& app, Choices& choices) {
+  const std::string allowed = fmt::format("I/N, 1 <= I <= N <= {}", kMostShards);
+  app.add_option("--shard", choices.shard,
+                 "drives only the I-th of N shares of the runs, I from 1, and writes runs.jsonl "
+                 "alone: for job arrays, each with an --out of its own")
+      ->check(hlc::apps::allowing(
+          [](const std::string& text) { return shard_of(text).has_value(); }, allowed, allowed))
+      ->excludes(app.get_option("--figures"));
+  CLI::Option* merge =
+      app.add_option("--merge", choices.merged,
+                     "the runs.jsonl of all shards of a campaign, as runs/*/runs.jsonl: drives "
+                     "nothing, writes to --out what one call for all runs would have written");
+  exclude_all_but(app, merge, {"--out"});
+}
+
 /// The option that replaces all the others that select the runs.
 CLI::Option* declare(CLI::App& app, Choices& choices) {
   declare_campaign(app, choices);
   declare_figures(app, choices);
+  declare_shards(app, choices);
   CLI::Option* sweep = app.add_option(
       "--sweep", choices.sweep,
       "a file with the settings and their values (launch_scripts/sweeps/README.md): drives "
       "every combination instead of a campaign, writes sweep.csv and sweep.md");
-  for (CLI::Option* option : app.get_options()) {
-    const std::string name = option->get_name();
-    if (name != "--help" && name != "--jobs" && name != "--out" && option != sweep) {
-      sweep->excludes(option);
-    }
-  }
+  exclude_all_but(app, sweep, {"--jobs", "--out"});
   app.footer(
       "Exit codes: 0 all runs driven, 1 some failed (reasons in results.json, sweep.csv), 2 bad "
       "input, 3 a record, table, figure or the printed output cannot be written; existing "
@@ -255,6 +310,7 @@ int main(int argc, char** argv) {
   CLI::Option* sweep = declare(app, choices);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitNotWritten)) return *code;
   choices.is_sweep = sweep->count() > 0;
+  choices.drive.shard = shard_of(choices.shard).value_or(hlc::apps::Shard{});
   // A failed run is recorded; any other error concerns an output.
   return hlc::apps::exit_code_of(
       "evaluate", [&] { return run(choices, command_line(argc, argv)); }, kExitNotWritten);

@@ -5,10 +5,9 @@
 
 #include "hlc_bridge/record/program.hpp"
 #include "hlc_bridge/record/summary_file.hpp"
-#include "planner/common/text_file.hpp"
+#include "vehicle_sim/apps/evaluation_results.hpp"
 #include "vehicle_sim/apps/figures_record.hpp"
 #include "vehicle_sim/apps/input_files.hpp"
-#include "vehicle_sim/campaign/tradeoff.hpp"
 
 namespace hlc::apps {
 namespace {
@@ -18,6 +17,8 @@ using Json = nlohmann::ordered_json;
 Json heading_of(const campaign::Campaign& campaign) {
   const campaign::CampaignPlan& plan = campaign.plan();
   Json json;
+  json["format"] = kRowFormat;
+  json["runs"] = campaign.runs().size();
   json["scenarios"] = Json::array();
   for (const auto& file : plan.scenarios) json["scenarios"].push_back(file.filename().string());
   json["files"] = input_files(campaign.files());
@@ -35,20 +36,13 @@ Json heading_of(const campaign::Campaign& campaign) {
   return json;
 }
 
-campaign::RunFigures figures_of(const campaign::Campaign& campaign, std::size_t run,
-                                const Json& record) {
-  return figures_of_record(record, campaign.heading_of(run));
-}
-
 }  // namespace
 
 EvaluationFiles::EvaluationFiles(std::filesystem::path folder, const campaign::Campaign& campaign)
     : campaign_(campaign), log_(std::move(folder), heading_of(campaign).dump()) {
-  log_.check(campaign.runs().size(), [this](std::size_t run, const Json& record) {
-    static_cast<void>(figures_of(campaign_, run, record));
-  });
-  log_.check_outputs({"results.json", "table.md", "table.csv", "tradeoff.md", "tradeoff.csv",
-                      "tradeoff_fronts.csv"});
+  log_.check(campaign.runs().size(),
+             [](std::size_t, const Json& record) { static_cast<void>(figures_of_row(record)); });
+  log_.check_outputs(result_files());
 }
 
 void EvaluationFiles::add(std::size_t run, const campaign::CampaignResult& result) {
@@ -77,29 +71,6 @@ void EvaluationFiles::add_failure(std::size_t run, const std::string& reason) {
   record["profile"] = heading.profile;
   record["subgraph"] = heading.subgraph;
   log_.append(run, record.dump());
-}
-
-std::vector<campaign::RunFigures> EvaluationFiles::figures() const {
-  std::vector<campaign::RunFigures> result;
-  for (const auto& [run, line] : log_.records()) {
-    result.push_back(figures_of(campaign_, run, Json::parse(line)));
-  }
-  return result;
-}
-
-void EvaluationFiles::finish(const campaign::EvaluationOrigin& origin) const {
-  Json results;
-  results["campaign"] = Json::parse(log_.heading());
-  results["runs"] = Json::array();
-  for (const auto& [run, line] : log_.records()) results["runs"].push_back(Json::parse(line));
-  write_file(log_.folder() / "results.json", results.dump(1) + "\n");
-  const std::vector<campaign::RunFigures> runs = figures();
-  write_file(log_.folder() / "table.md", campaign::evaluation_markdown(runs, origin));
-  write_file(log_.folder() / "table.csv", campaign::evaluation_csv(runs));
-  if (campaign_.plan().policies.empty()) return;
-  write_file(log_.folder() / "tradeoff.md", campaign::tradeoff_markdown(runs));
-  write_file(log_.folder() / "tradeoff.csv", campaign::tradeoff_csv(runs));
-  write_file(log_.folder() / "tradeoff_fronts.csv", campaign::tradeoff_fronts_csv(runs));
 }
 
 }  // namespace hlc::apps

@@ -7,7 +7,6 @@
 
 #include "vehicle_sim/apps/run_log.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
-#include "vehicle_sim/campaign/evaluation_table.hpp"
 
 namespace hlc::apps {
 
@@ -41,9 +40,8 @@ class EvaluationFiles {
   void add(std::size_t run, const campaign::CampaignResult& result);
   void add_failure(std::size_t run, const std::string& reason);
 
-  /// Writes results.json and the tables.
-  void finish(const campaign::EvaluationOrigin& origin) const;
-  [[nodiscard]] std::vector<campaign::RunFigures> figures() const;
+  /// All rows, for their results (evaluation_results.hpp).
+  [[nodiscard]] const RunLog& rows() const { return log_; }
 
  private:
   const campaign::Campaign& campaign_;

@@ -8,17 +8,12 @@
 
 namespace hlc::apps {
 
-std::vector<std::size_t> missing_runs(std::size_t runs,
+std::vector<std::size_t> missing_runs(std::vector<std::size_t> runs,
                                       const std::function<bool(std::size_t)>& has) {
-  std::vector<std::size_t> missing;
-  for (std::size_t run = 0; run < runs; ++run) {
-    if (!has(run)) missing.push_back(run);
-  }
-  if (missing.size() < runs) {
-    std::cerr << "evaluate: " << runs - missing.size() << " of " << runs
-              << " runs already driven\n";
-  }
-  return missing;
+  const std::size_t all = runs.size();
+  const std::size_t driven = std::erase_if(runs, has);
+  if (driven > 0) std::cerr << "evaluate: " << driven << " of " << all << " runs already driven\n";
+  return runs;
 }
 
 void for_each_number(const std::vector<std::size_t>& numbers, const std::string& what,

@@ -9,8 +9,8 @@
 
 namespace hlc::apps {
 
-/// The numbers below `runs` without a record. Prints on stderr how many have one.
-[[nodiscard]] std::vector<std::size_t> missing_runs(std::size_t runs,
+/// Those of `runs` without a record. Prints on stderr how many have one.
+[[nodiscard]] std::vector<std::size_t> missing_runs(std::vector<std::size_t> runs,
                                                     const std::function<bool(std::size_t)>& has);
 
 /// Calls task(number) for every number of the list, `jobs` at a time, with a progress line on

@@ -36,8 +36,9 @@ std::string differing_files(const Json& before, const Json& now) {
   return names;
 }
 
-/// The difference of two headings, with the existing values.
-std::string differences(const std::string& there, const std::string& wanted) {
+}  // namespace
+
+std::string differing_keys(const std::string& there, const std::string& wanted) {
   const Json before = Json::parse(there, nullptr, false);
   const Json now = Json::parse(wanted);
   if (!before.is_object()) return "first line";
@@ -55,7 +56,20 @@ std::string differences(const std::string& there, const std::string& wanted) {
   return keys.empty() ? "first line" : fmt::format("{}", fmt::join(keys, ", "));
 }
 
-}  // namespace
+RunRows parse_run_rows(const std::string& text) {
+  std::vector<std::string> lines = split(text, '\n');
+  RunRows rows{.heading = lines.front(), .rows = {}};
+  lines.pop_back();  // behind the last line break: empty, or an incomplete line
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const Json record = Json::parse(lines[i], nullptr, false);
+    if (!record.is_object() || !record.contains("run") || !record["run"].is_number_unsigned()) {
+      throw std::invalid_argument(
+          fmt::format("line {} of runs.jsonl is no record of a run", i + 1));
+    }
+    rows.rows[record["run"].get<std::size_t>()] = lines[i];
+  }
+  return rows;
+}
 
 RunLog::RunLog(std::filesystem::path folder, std::string heading)
     : folder_(std::move(folder)), heading_(std::move(heading)) {
@@ -114,22 +128,22 @@ void RunLog::open() {
   }
   if (!std::filesystem::is_regular_file(file)) refuse("contains other files");
   const std::string text = read_file(file);
-  std::vector<std::string> lines = split(text, '\n');
-  if (lines.front() != heading_) {
+  const std::string heading = text.substr(0, text.find('\n'));
+  if (heading != heading_) {
     refuse("contains another campaign: other choices, files or program (there: " +
-           differences(lines.front(), heading_) + ")");
+           differing_keys(heading, heading_) + ")");
   }
-  lines.pop_back();  // behind the last line break: empty, or an incomplete line
-  std::string kept = heading_ + "\n";
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const Json record = Json::parse(lines[i], nullptr, false);
-    if (!record.is_object() || !record.contains("run") || !record["run"].is_number_unsigned()) {
-      refuse(fmt::format("line {} of runs.jsonl is no record of a run", i + 1));
-    }
-    records_[record["run"].get<std::size_t>()] = lines[i];
-    kept += lines[i] + "\n";
+  try {
+    records_ = parse_run_rows(text).rows;
+  } catch (const std::invalid_argument& error) {
+    refuse(error.what());
   }
-  if (kept != text) write(kept);
+  const std::string kept = text.substr(0, text.rfind('\n') + 1);
+  if (kept.empty()) {
+    write(heading_ + "\n");
+  } else if (kept != text) {
+    write(kept);
+  }
 }
 
 void RunLog::check(std::size_t num_runs,

@@ -11,6 +11,19 @@
 
 namespace hlc::apps {
 
+/// The content of a runs.jsonl.
+struct RunRows {
+  std::string heading;                      ///< its first line
+  std::map<std::size_t, std::string> rows;  ///< one line of JSON each, by run
+};
+
+/// An incomplete last line is dropped.
+/// @throws std::invalid_argument "line 3 ... is no record of a run", without the file's name
+[[nodiscard]] RunRows parse_run_rows(const std::string& text);
+
+/// In what a heading differs from the one wanted, with its own values: "seed 2, files town.yaml".
+[[nodiscard]] std::string differing_keys(const std::string& heading, const std::string& wanted);
+
 /// The file runs.jsonl in the folder of a campaign or sweep: a first line that identifies the
 /// campaign, then a line per run, written once it is driven. An interrupted campaign continues with
 /// the missing runs.
@@ -55,7 +68,7 @@ class RunLog {
 
   std::filesystem::path folder_;
   std::string heading_;
-  std::map<std::size_t, std::string> records_;
+  std::map<std::size_t, std::string> records_;  ///< as RunRows::rows
   std::mutex mutex_;
   int lock_{-1};  ///< on the folder
 };
