@@ -47,7 +47,7 @@ struct Sides {
 class NeighbourLanes {
  public:
   NeighbourLanes(const std::vector<std::vector<Pose>>& paths, double lane_width_m)
-      : lane_width_m_(lane_width_m), near_(2.0 * lane_width_m) {
+      : lane_width_m_(lane_width_m), near_(std::hypot(kFarthestLane * lane_width_m, kBeside_m)) {
     for (const std::vector<Pose>& path : paths) {
       for (const Pose& pose : path) {
         poses_.push_back(pose);

@@ -131,16 +131,20 @@ Scenario with_starts(Scenario scenario, std::span<const double> starts_s_m) {
   return scenario;
 }
 
-Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
-  if (!scenario.candidates.empty()) {
-    Scenario redrawn = scenario;
-    redrawn.seed = seed;
-    redrawn.vehicles = draw_cars(scenario, scenario.vehicles.size(), seed);
-    if (redrawn.vehicles.size() < scenario.vehicles.size()) throw too_many(scenario);
-    if (scenario.random_routes_on) redrawn.routes = routes_of(redrawn.vehicles);
-    relate_routes(redrawn);
-    return redrawn;
-  }
+namespace {
+
+/// With as many cars, drawn again from the candidates.
+Scenario redrawn(Scenario scenario, std::uint64_t seed) {
+  std::vector<ScenarioVehicle> vehicles = draw_cars(scenario, scenario.vehicles.size(), seed);
+  if (vehicles.size() < scenario.vehicles.size()) throw too_many(scenario);
+  scenario.seed = seed;
+  scenario.vehicles = std::move(vehicles);
+  if (scenario.random_routes_on) scenario.routes = routes_of(scenario.vehicles);
+  return scenario;
+}
+
+/// With the same cars elsewhere on their paths.
+Scenario displaced(const Scenario& scenario, std::uint64_t seed) {
   const bool are_closed = std::ranges::all_of(
       scenario.vehicles, [](const ScenarioVehicle& vehicle) { return vehicle.path.is_closed(); });
   if (!are_closed) {
@@ -158,6 +162,20 @@ Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
     if (!overlapping_starts(candidate)) return candidate;
   }
   throw too_many(scenario);
+}
+
+}  // namespace
+
+Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
+  if (scenario.candidates.empty()) return displaced(scenario, seed);
+  Scenario drawn_again = redrawn(scenario, seed);
+  relate_routes(drawn_again);
+  return drawn_again;
+}
+
+void check_random_starts(const Scenario& scenario, std::uint64_t seed) {
+  static_cast<void>(scenario.candidates.empty() ? displaced(scenario, seed)
+                                                : redrawn(scenario, seed));
 }
 
 }  // namespace hlc::scenario

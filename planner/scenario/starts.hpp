@@ -45,4 +45,8 @@ namespace hlc::scenario {
 /// @throws std::invalid_argument if a path is not closed, or if a thousand draws all overlap
 [[nodiscard]] Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed);
 
+/// Draws these starts without relating the cars' routes to each other, which takes longest.
+/// @throws std::invalid_argument as with_random_starts
+void check_random_starts(const Scenario& scenario, std::uint64_t seed);
+
 }  // namespace hlc::scenario

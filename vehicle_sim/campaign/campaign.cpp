@@ -81,7 +81,7 @@ Campaign::Campaign(CampaignPlan plan) : plan_(std::move(plan)), runs_(runs_of(pl
                                   same->second.string() + ", scenario names must be unique");
     }
     if (run.start > 0) {
-      static_cast<void>(scenario::with_random_starts(scenario_of(run), plan_.seed + run.start));
+      scenario::check_random_starts(scenario_of(run), plan_.seed + run.start);
     }
   }
 }
