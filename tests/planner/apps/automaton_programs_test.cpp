@@ -303,5 +303,18 @@ TEST(GenerateMap, WritesAMapAndRefusesWhatIsNoFile) {
   EXPECT_NE(unknown.output.find("lab_network"), std::string::npos) << unknown.output;
 }
 
+TEST(GenerateMap, WritesTownsAndRefusesSizesOutOfBounds) {
+  const test::TemporaryFolder folder;
+  const std::string generate = "generate_map --out " + (folder / "town.xml").string();
+  EXPECT_EQ(run_program(generate + " --blocks 2x1").output, "136 lanelets\n");
+  for (const char* blocks : {"2", "2x", "x2", "0x1", "1x13", "2x1x1", "-1x1", "axb"}) {
+    const Outcome outcome = run_program(generate + " --blocks " + blocks);
+    EXPECT_EQ(outcome.exit_code, 2) << blocks;
+    EXPECT_NE(outcome.output.find("must be WxH, each in 1 ... 12"), std::string::npos)
+        << outcome.output;
+  }
+  EXPECT_EQ(run_program(generate + " --blocks 2x1 --map lab_like").exit_code, 2);
+}
+
 }  // namespace
 }  // namespace hlc::apps
