@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
 
@@ -13,6 +12,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/vehicle_sim/apps/timeless_results.hpp"
 
 namespace hlc::test {
 namespace {
@@ -22,21 +22,6 @@ using testing::EndsWith;
 using testing::HasSubstr;
 
 constexpr int kRuns = 6;
-
-/// Without what a clock measured.
-nlohmann::ordered_json timeless(nlohmann::ordered_json results) {
-  for (auto& run : results["runs"]) {
-    run.erase("wall_s");
-    run.erase("realtime_factor");
-    for (const char* time : {"planning_mean_ms", "planning_std_ms", "planning_max_ms",
-                             "exceeding_step_share", "step_p99_ms", "step_max_ms", "wall_s",
-                             "wall_planning_s", "wall_coordination_s", "wall_vehicles_s"}) {
-      run["figures"].erase(time);
-    }
-    for (auto& vehicle : run["vehicles"]) vehicle.erase("planning_time_ms");
-  }
-  return results;
-}
 
 /// The rows without those of times.
 std::string timeless_table(const std::string& csv) {

@@ -10,6 +10,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/vehicle_sim/apps/timeless_results.hpp"
 
 namespace hlc::test {
 namespace {
@@ -33,19 +34,6 @@ class Evaluate : public testing::Test {
   }
   [[nodiscard]] nlohmann::json results() const {
     return nlohmann::json::parse(text_of(out_ / "results.json"));
-  }
-  /// Without what a clock measured.
-  static nlohmann::json timeless(nlohmann::json results) {
-    for (auto& run : results["runs"]) {
-      run.erase("wall_s");
-      run.erase("realtime_factor");
-      for (const char* time : {"planning_mean_ms", "planning_std_ms", "planning_max_ms", "wall_s",
-                               "wall_planning_s", "wall_coordination_s", "wall_vehicles_s"}) {
-        run["figures"].erase(time);
-      }
-      for (auto& vehicle : run["vehicles"]) vehicle.erase("planning_time_ms");
-    }
-    return results;
   }
 
   TemporaryFolder folder_;
