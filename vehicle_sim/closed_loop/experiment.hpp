@@ -55,8 +55,8 @@ struct Experiment {
   std::vector<ReportRecord> reports;
   result::Drives drives;
   WallTimes wall;
-  /// Processor time (Clocks::cpu) of each step of all controllers: from the state list to the
-  /// commands and reports, without the simulated vehicles.
+  /// Processor time (Clocks::cpu) of each step of all controllers since the start, as the reports
+  /// have them: from the state list to the commands and reports, without the simulated vehicles.
   std::vector<double> steps_s;
 };
 

@@ -43,6 +43,17 @@ TEST(Experiment, DrivesThePapersScenarioToTheEnd) {
   }
 }
 
+TEST(Experiment, MeasuresEveryStepOfAllControllersByTheClockOfProcessorTime) {
+  Nanoseconds now = 0;
+  const Experiment experiment = drive_experiment(
+      scenario_of("paper_three_cars"),
+      {.steps = 7, .clocks = {.wall = {}, .cpu = [&now] { return now += 1'000'000; }}});
+  ASSERT_EQ(experiment.steps_s.size(), 8U) << "as the reports: with the list that ends the run";
+  for (const double step_s : experiment.steps_s) {
+    EXPECT_GT(step_s, 3e-3) << "the clock is read for each of three cars within the step, too";
+  }
+}
+
 TEST(Experiment, DrivesMoreCarsThanTheLabHas) {
   const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 50});
