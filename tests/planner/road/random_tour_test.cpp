@@ -12,6 +12,7 @@
 #include "planner/road/lap.hpp"
 #include "planner/road/placement.hpp"
 #include "planner/road/route.hpp"
+#include "planner/road/town_map.hpp"
 #include "tests/support/every.hpp"
 #include "tests/support/num_seeds.hpp"
 
@@ -109,6 +110,18 @@ TEST(RandomTour, OfRandomGraphsClosesAndPassesThroughAllThatCanBeReached) {
         expect_closed_tour(map, start, seed, all);
       }
     }
+  }
+}
+
+TEST(RandomTour, OfATownClosesAndReturnsAfterTwoHundredLanelets) {
+  const LaneletMap map = town_map({.columns = 3, .rows = 3});
+  ASSERT_GT(map.lanelets.size(), 300U);
+  for (std::uint64_t seed = 1; seed <= test::num_seeds(20); ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<LaneletId> tour = random_tour(map, 1, seed, kVehicle);
+    expect_closed_tour(map, 1, seed, {tour.begin(), tour.end()});
+    EXPECT_GE(tour.size(), 200U);
+    EXPECT_LE(tour.size(), 230U) << "at most eight places to pass on the way back";
   }
 }
 
