@@ -11,10 +11,10 @@ namespace hlc::apps {
 using Json = nlohmann::ordered_json;
 
 const std::vector<std::string>& result_files() {
-  static const std::vector<std::string> names{"results.json", "table.md",
-                                              "table.csv",    "tradeoff.md",
-                                              "tradeoff.csv", "tradeoff_fronts.csv"};
-  return names;
+  static const std::vector<std::string> kNames{"results.json", "table.md",
+                                               "table.csv",    "tradeoff.md",
+                                               "tradeoff.csv", "tradeoff_fronts.csv"};
+  return kNames;
 }
 
 campaign::RunFigures figures_of_row(const Json& row) {

@@ -25,9 +25,9 @@ constexpr int kRuns = 6;
 
 /// The rows without those of times.
 std::string timeless_table(const std::string& csv) {
-  static const std::regex times(
+  static const std::regex kTimes(
       "[^\n]*,(planning_[a-z]+_ms|step_[a-z0-9]+_ms|wall_[a-z_]+),[^\n]*\n");
-  return std::regex_replace(csv, times, "");
+  return std::regex_replace(csv, kTimes, "");
 }
 
 class EvaluateShards : public testing::Test {
