@@ -1,7 +1,6 @@
 #include "hlc_bridge/dds/convert_hlc.hpp"
 
 #include <algorithm>
-
 #include <string>
 #include <utility>
 #include <vector>
