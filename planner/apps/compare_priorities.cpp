@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,7 @@ struct Flags {
   std::vector<std::size_t> cars;
   std::vector<std::string> strategies{hlc::coordination::priority_strategy_names()};
   std::size_t draws{3};
-  std::size_t max_levels{};
+  std::optional<std::size_t> max_levels;
   hlc::apps::OutputFile rows{"--rows", {}};
 };
 
@@ -53,7 +55,8 @@ void declare(CLI::App& app, Flags& flags) {
                  "of the cars of a scenario that draws them, seeds 1, 2, ...; others have one")
       ->check(hlc::apps::whole(1, 10'000))
       ->capture_default_str();
-  app.add_option("--max_levels", flags.max_levels, "most computation levels; default: no limit")
+  app.add_option("--max_levels", flags.max_levels,
+                 "most computation levels; default: the scenario's")
       ->check(hlc::apps::whole(1, 100));
   app.add_option("--steps", flags.scenario.steps, "instead of the scenario's")
       ->check(hlc::apps::whole(1, 100'000));
@@ -73,7 +76,11 @@ hlc::scenario::Scenario scenario_of(const Flags& flags, std::size_t cars,
   choices.priorities = strategy;
   if (draw != 0) choices.seed = draw;
   hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
-  scenario.profile.strategies.priorities.max_levels = flags.max_levels;
+  hlc::controller::ControllerStrategies& rules = scenario.profile.strategies;
+  if (flags.max_levels) rules.priorities.max_levels = *flags.max_levels;
+  const std::string why =
+      hlc::scenario::unsuitable_priorities(rules.priorities, rules.coordination);
+  if (!why.empty()) throw std::invalid_argument("priorities, must be " + why);
   return scenario;
 }
 
@@ -89,6 +96,7 @@ struct Figures {
   std::size_t levels_sum{};
   std::size_t levels_max{};
   double driven_m{};
+  std::size_t driven_steps{};  ///< of all vehicles, from the second step of a run on
   std::size_t planned{};
   std::size_t vehicle_steps{};
   std::size_t deadlocked{};
@@ -108,6 +116,7 @@ Figures figures_of(const std::vector<PriorityTrial>& trials) {
       sum.levels_max = std::max(sum.levels_max, levels);
     }
     sum.driven_m += one.driven_m;
+    sum.driven_steps += one.vehicle_steps - one.vehicle_steps / one.step_s.size();
     sum.planned += one.planned;
     sum.vehicle_steps += one.vehicle_steps;
     if (one.deadlock_step) ++sum.deadlocked;
@@ -130,7 +139,8 @@ std::string row_of(const Cell& cell, double period_s) {
       cell.cars == 0 ? "-" : fmt::to_string(cell.cars), cell.strategy, quantile(all.step_ms, 0.5),
       quantile(all.step_ms, 0.99), static_cast<double>(all.levels_sum) / steps, all.levels_max,
       kPercent * static_cast<double>(all.planned) / vehicle_steps,
-      all.driven_m / vehicle_steps / period_s, all.deadlocked, cell.trials.size(),
+      all.driven_m / static_cast<double>(std::max<std::size_t>(all.driven_steps, 1)) / period_s,
+      all.deadlocked, cell.trials.size(),
       all.compared == 0
           ? "-"
           : fmt::format("{:.4f} ({})", all.cost_m2 / all.optimal_order_m2, all.compared),
@@ -150,7 +160,8 @@ constexpr const char* kHeading =
 constexpr const char* kLegend =
     "\nstep: planning and coordination of all cars, one after the other in one process. "
     "deadlocked: "
-    "a car stood for three horizons.\ncost / optimal order: of the same step from the same "
+    "a car stood for three horizons, also one that has arrived.\ncost / optimal order: of the same "
+    "step from the same "
     "situation, where no more than 5 cars are coupled and as many found a plan;\nsteps with fewer "
     "plans than in the optimal order. above the joint optimum: sum of the costs against the sum of "
     "the bounds.\n";
@@ -185,6 +196,11 @@ int run(Flags flags) {
       "joint_excess\n";
   const hlc::scenario::Scenario any = scenario_of(flags, flags.cars.front(), "constant", 0);
   const std::vector<std::size_t> draws = draws_of(flags, any);
+  for (const std::size_t cars : flags.cars) {  // before anything is driven
+    for (const std::string& strategy : flags.strategies) {
+      static_cast<void>(scenario_of(flags, cars, strategy, draws.front()));
+    }
+  }
   const hlc::apps::ProgressLine progress(
       "run", flags.cars.size() * flags.strategies.size() * draws.size());
   std::string table = kHeading;
@@ -204,8 +220,8 @@ int run(Flags flags) {
   fmt::print("{}: {} steps of {:g} s, horizon {}, subgraph {} of {} trims, {} draws{}\n\n{}{}",
              any.name, any.steps, any.subgraph->automaton().step_s, any.horizon_steps,
              any.subgraph->spec().name, any.subgraph->spec().trims.size(), draws.size(),
-             flags.max_levels == 0 ? "" : fmt::format(", at most {} levels", flags.max_levels),
-             table, kLegend);
+             flags.max_levels ? fmt::format(", at most {} levels", *flags.max_levels) : "", table,
+             kLegend);
   if (flags.rows.file) hlc::write_file(*flags.rows.file, rows);
   return 0;
 }

@@ -142,7 +142,8 @@ class Controller {
   /// The same alone.
   void couple(const coordination::ReceivedMessages<coordination::Traffic>& received);
   /// Any time between the second phase and the third: another order than PriorityRule::assign gave.
-  void plan_in(const coordination::PriorityOrder& plans_before);
+  /// @param level  computation level of this vehicle in it
+  void plan_in(const coordination::PriorityOrder& plans_before, std::uint32_t level);
   /// All that the third phase changes.
   class Coupled;
   /// After the second phase, to plan again from there. @pre is_settled

@@ -14,11 +14,10 @@ std::vector<ConvexPolygon> Controller::reference_areas_m() const {
                   route().path, automaton.vehicle);
 }
 
-void Controller::plan_in(const coordination::PriorityOrder& plans_before) {
+void Controller::plan_in(const coordination::PriorityOrder& plans_before, std::uint32_t level) {
   step_.plans_before = plans_before;
   step_.predecessors = coordination::predecessors(coupling(), options_.vehicle, plans_before);
-  step_.report.level =
-      coordination::computation_levels(coupling(), plans_before).at(options_.vehicle);
+  step_.report.level = level;
 }
 
 Controller::Coupled Controller::coupled_state() const {

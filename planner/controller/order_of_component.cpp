@@ -24,17 +24,22 @@ class OrderTrials {
 
   [[nodiscard]] OrderCost plan(const std::vector<VehicleId>& order) {
     const coordination::PriorityOrder plans_before = as_priorities(order);
+    std::vector<VehicleId> sequence = order;
+    std::ranges::sort(sequence, std::cref(plans_before));  // PriorityRule::first comes first
     coordination::ReceivedMessages<coordination::Prediction> predictions;
     OrderCost cost;
-    for (const VehicleId vehicle : order) {
+    cost.costs_m2.resize(order.size());
+    for (const VehicleId vehicle : sequence) {
       Controller& one = *component_[place(vehicle)];
       one.restore(states_[place(vehicle)]);
-      one.plan_in(plans_before);
+      one.plan_in(plans_before, 0);
       predictions.put(std::make_shared<const coordination::Prediction>(one.plan(predictions)));
       const std::optional<double> cost_m2 = one.planned_cost_m2();
       if (!cost_m2) ++cost.without_plan;
       cost.cost_m2 += cost_m2.value_or(0.0);
-      cost.costs_m2.push_back(cost_m2.value_or(std::numeric_limits<double>::infinity()));
+      const auto at = std::ranges::find(order, vehicle) - order.begin();
+      cost.costs_m2[static_cast<std::size_t>(at)] =
+          cost_m2.value_or(std::numeric_limits<double>::infinity());
       cost.expanded += 1 + one.expanded();
     }
     return cost;
@@ -43,9 +48,12 @@ class OrderTrials {
   /// As before all trials, but with this order.
   void take(const std::vector<VehicleId>& order) {
     const coordination::PriorityOrder plans_before = as_priorities(order);
+    const auto levels =
+        coordination::computation_levels(component_.front()->coupling(), plans_before);
     for (std::size_t i = 0; i < component_.size(); ++i) {
-      component_[i]->restore(states_[i]);
-      component_[i]->plan_in(plans_before);
+      Controller& one = *component_[i];
+      one.restore(states_[i]);
+      one.plan_in(plans_before, levels.at(one.options().vehicle));
     }
   }
 

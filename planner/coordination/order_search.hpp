@@ -25,7 +25,7 @@ struct OrderCost {
 using TryOrder = std::function<OrderCost(const std::vector<VehicleId>& order)>;
 
 /// A search over orders in a control step tries no further order once its plans have expanded so
-/// many vertices.
+/// many vertices. Plans of one order may expand more, each up to its own budget.
 inline constexpr std::size_t kMostOrderExpansions = 2'000;
 
 /// Searches a better order than `start` for the vehicles of one component. Deterministic, and never

@@ -23,7 +23,7 @@ class PriorityOrder {
   /// True if a comes before b: a strict total order.
   [[nodiscard]] bool operator()(VehicleId a, VehicleId b) const;
   /// Coupled vehicles of different groups plan at the same time: neither knows the other's new
-  /// plan. The commit rule keeps them apart (commit.hpp).
+  /// plan. The commit rule `strict` keeps them apart (commit.hpp); `agreed` does not.
   [[nodiscard]] bool are_in_one_group(VehicleId a, VehicleId b) const;
   friend bool operator==(const PriorityOrder&, const PriorityOrder&) = default;
 
@@ -59,7 +59,7 @@ struct PriorityStrategy {
   std::vector<VehicleId> (*assign)(const PrioritySituation& situation);
   /// Absent: the order above is the order. Needs controllers that plan for each other (two rounds).
   SearchOrder search{nullptr};
-  /// Larger components are not searched, but get PriorityRule::beyond. 0: no limit.
+  /// Larger components are searched by PriorityRule::beyond. 0: no limit.
   std::size_t most_vehicles{0};
   /// Needs Traffic::reference_areas_m.
   bool compares_references{false};
@@ -77,10 +77,11 @@ struct PriorityRule {
   /// No more computation levels than these: couplings are cut where it takes the least
   /// (priority_groups.hpp). 0: no limit.
   std::size_t max_levels{0};
-  /// Of components with more vehicles than the strategy can search.
+  /// Searches the order of components with more vehicles than the strategy can compare:
+  /// kConstantPriorities (no search) or a strategy with a search and without a limit.
   const PriorityStrategy* beyond{&kConstantPriorities};
 
-  /// The component is too large for the strategy: it gets `beyond`.
+  /// The component is too large for the strategy.
   [[nodiscard]] bool is_beyond(std::size_t num_vehicles) const;
   /// The search for a component; nullptr: none.
   [[nodiscard]] SearchOrder search_for(std::size_t num_vehicles) const;

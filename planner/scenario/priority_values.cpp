@@ -46,9 +46,9 @@ coordination::PriorityRule read_priorities(const Node& node) {
   rule.first = read_first(values);
   rule.max_levels = values.optional<std::size_t>("max_levels", 0, between(1.0, kMostLevels));
   rule.beyond = read_strategy(values, "beyond");
-  if (rule.beyond->most_vehicles != 0) {
-    values.fail("beyond", "a strategy without a limit of its own");
-  }
+  const bool is_constant = rule.beyond == &coordination::kConstantPriorities;
+  const bool is_unlimited = rule.beyond->search != nullptr && rule.beyond->most_vehicles == 0;
+  if (!is_constant && !is_unlimited) values.fail("beyond", "constant, explorative or best_order");
   values.check_no_unknown_keys();
   return rule;
 }
@@ -58,6 +58,15 @@ const coordination::PriorityStrategy* priority_strategy_from_flag(const std::str
   throw std::invalid_argument(
       fmt::format("--priorities = {}, must be one of {}", name,
                   fmt::join(coordination::priority_strategy_names(), ", ")));
+}
+
+std::string unsuitable_priorities(const coordination::PriorityRule& priorities,
+                                  const controller::CoordinationRule& coordination) {
+  if (!coordination.commit.needs_votes) return "";
+  if (priorities.strategy->search != nullptr) {
+    return "a strategy that compares no orders with coordination agreed";
+  }
+  return priorities.max_levels == 0 ? "" : "without max_levels with coordination agreed";
 }
 
 std::string priority_strategies_text() {

@@ -24,7 +24,6 @@ struct Profile {
 /// | reference points          | half_speed_last                 | half_speed_last              |
 /// | engine                    | branch_and_bound                | best_first                   |
 /// | cost-to-go                | admissible: plans are optimal   | the authors', inadmissible   |
-/// | priorities                | smaller id first                | smaller id first             |
 /// | coordination              | cooperative                     | agreed: as the authors did   |
 /// | - plans come into force   | strict: safe whatever is lost   | if nobody votes against      |
 /// | - obstacles               | old and new plans               | predictions, standing cars   |

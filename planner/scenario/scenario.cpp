@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planner/common/node.hpp"
+#include "planner/scenario/priority_values.hpp"
 #include "planner/scenario/scenario_assembly.hpp"
 #include "planner/scenario/scenario_inputs.hpp"
 #include "planner/scenario/scenario_values.hpp"
@@ -80,6 +81,12 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
 
 std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario, VehicleId id,
                                                         controller::PreparedSubgraph on) {
+  const controller::ControllerStrategies& rules = scenario.profile.strategies;
+  const std::string why = unsuitable_priorities(rules.priorities, rules.coordination);
+  if (!why.empty()) {
+    throw std::invalid_argument(
+        fmt::format("priorities = {}, must be {}", rules.priorities.strategy->name, why));
+  }
   std::vector<road::DrivableRoute> routes = scenario.routes;
   const auto named = std::ranges::find(scenario.vehicles, id, &ScenarioVehicle::id);
   if (named != scenario.vehicles.end()) {

@@ -114,9 +114,12 @@ controller::Rounds rounds_of(const ScenarioValues& values, const ScenarioChoices
   const coordination::PriorityStrategy& strategy = *profile.strategies.priorities.strategy;
   const bool needs_votes = profile.strategies.coordination.commit.needs_votes;
   const bool is_sequential = values.rounds == controller::Rounds::kSequential;
-  if (strategy.search != nullptr && (needs_votes || is_sequential)) {
-    const std::string why = fmt::format("a strategy that compares no orders with {}",
-                                        needs_votes ? "coordination agreed" : "rounds: sequential");
+  std::string why =
+      unsuitable_priorities(profile.strategies.priorities, profile.strategies.coordination);
+  if (why.empty() && strategy.search != nullptr && is_sequential) {
+    why = "a strategy that compares no orders with rounds: sequential";
+  }
+  if (!why.empty()) {
     if (!choices.priorities) values.node.fail("priorities", why);
     throw std::invalid_argument(
         fmt::format("--priorities = {}, must be {}", *choices.priorities, why));

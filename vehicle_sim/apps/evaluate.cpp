@@ -149,14 +149,15 @@ int run_sweep(const Choices& choices, const std::string& command) {
 }
 
 /// Prints the outcome of the rows. @return the exit code
-int report(const hlc::apps::RunLog& rows, double wall_s, const char* results) {
+/// @param are_all  rows of all runs: the policies can be compared
+int report(const hlc::apps::RunLog& rows, double wall_s, const char* results, bool are_all = true) {
   const std::vector<hlc::campaign::RunFigures> figures = hlc::apps::figures_of_rows(rows);
   const auto stuck = std::ranges::count_if(
       figures, [](const hlc::campaign::RunFigures& run) { return run.stuck_vehicles > 0; });
   const std::size_t failed = hlc::apps::num_failed(figures);
   std::printf("%zu runs, %zu failed, %td with a car stuck at the end, %.1f s; %s\n", figures.size(),
               failed, stuck, wall_s, (rows.folder() / results).c_str());
-  if (std::ranges::any_of(figures, hlc::campaign::has_policy)) {
+  if (are_all && std::ranges::any_of(figures, hlc::campaign::has_policy)) {
     std::printf("\n%s", hlc::campaign::tradeoff_markdown(figures).c_str());
   }
   return failed == 0 ? 0 : 1;
@@ -183,7 +184,7 @@ int run(Choices choices, const std::string& command) {
   const Clock::time_point begin = Clock::now();
   hlc::apps::drive_campaign(campaign, choices.drive, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  if (!choices.shard.empty()) return report(files.rows(), wall_s, "runs.jsonl");
+  if (!choices.shard.empty()) return report(files.rows(), wall_s, "runs.jsonl", false);
   hlc::apps::write_results(files.rows(), origin_of(command));
   const int code = report(files.rows(), wall_s, "table.md");
   draw(campaign, choices);

@@ -175,9 +175,14 @@ void check_is_there(const Fork::Change& change, const std::set<VehicleId>& gone)
 void check_coordination(const Fork::Change& change, const scenario::Scenario& scenario) {
   const auto* const one = std::get_if<Fork::Coordination>(&change);
   if (one == nullptr || !one->rule.commit.needs_votes) return;
-  if (scenario.rounds != controller::Rounds::kTwo) return;
-  throw std::invalid_argument(
-      "--set: coordination=agreed, must be cooperative or strict in a run of two rounds");
+  if (scenario.rounds == controller::Rounds::kTwo) {
+    throw std::invalid_argument(
+        "--set: coordination=agreed, must be cooperative or strict in a run of two rounds");
+  }
+  if (scenario.profile.strategies.priorities.max_levels != 0) {
+    throw std::invalid_argument(
+        "--set: coordination=agreed, must be cooperative or strict with max_levels");
+  }
 }
 
 void check_without(const Fork& fork, std::size_t num_gone, std::size_t num_vehicles) {

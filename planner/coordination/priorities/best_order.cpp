@@ -101,10 +101,10 @@ std::vector<VehicleId> promoted(const CouplingGraph& graph, std::vector<VehicleI
 /// All orders of up to 4 vehicles. Of more a local search: the better of the order and its reverse;
 /// then the vehicle whose plan costs most above its cheapest one so far is moved to the front, or
 /// before the last one that it has to make way for, as long as that makes the plans cheaper all in
-/// all. No more than kMostOrderExpansions.
+/// all. Ends after kMostOrderExpansions.
 constinit const PriorityStrategy kBestOrder{
     .name = "best_order",
-    .meaning = "the cheapest order of up to 4 coupled vehicles, a better one of more",
+    .meaning = "the cheapest order of up to 4 coupled vehicles, of more the best of a local search",
     .assign = &smaller_ids_first,
     .search = &promoted};
 

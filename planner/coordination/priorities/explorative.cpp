@@ -34,12 +34,12 @@ std::vector<VehicleId> cheapest_rotation(const CouplingGraph& graph, std::vector
 
 }  // namespace
 
-/// As many orders as there are computation levels: each vehicle is once on each level, and the
-/// cheapest order wins (P. Scheffe et al., "Simultaneous Computation with Multiple Prioritizations
+/// As many orders as there are computation levels: those of the constant order, rotated; and the
+/// cheapest wins (P. Scheffe et al., "Simultaneous Computation with Multiple Prioritizations
 /// in Multi-Agent Motion Planning"; there the orders are planned at the same time).
 constinit const PriorityStrategy kExplorativePriorities{
     .name = "explorative",
-    .meaning = "the cheapest of as many orders as there are levels, each vehicle once on each",
+    .meaning = "the cheapest of as many orders as there are levels, which are rotated",
     .assign = &smaller_ids_first,
     .search = &cheapest_rotation};
 

@@ -40,7 +40,7 @@ std::vector<VehicleId> most_collisions_first(const PrioritySituation& situation)
 
 /// Future collision assessment (P. Scheffe, G. Dorndorf, B. Alrifaee, "Increasing Feasibility with
 /// Dynamic Priority Assignment in Distributed Trajectory Planning for Road Vehicles", IV 2022).
-/// Counted are pairs of steps in which footprints on the reference points meet.
+/// Counted are the steps in which footprints of coupled vehicles on the reference points meet.
 constinit const PriorityStrategy kMostCollisionsFirst{
     .name = "fca",
     .meaning = "first who would meet others most often on its reference",

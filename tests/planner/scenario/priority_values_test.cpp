@@ -57,6 +57,7 @@ TEST(PriorityValues, ThatAreBadAreRefusedInOneLine) {
   EXPECT_THAT(refusal("priorities: {first: [0]}"), HasSubstr("priorities.first[1] = 0, must be"));
   EXPECT_THAT(refusal("priorities: {max_levels: 0}"), HasSubstr("max_levels = 0, must be"));
   EXPECT_THAT(refusal("priorities: {beyond: optimal}"), HasSubstr("beyond = optimal, must be"));
+  EXPECT_THAT(refusal("priorities: {beyond: fca}"), HasSubstr("beyond = fca, must be constant"));
   EXPECT_THAT(refusal("priorities: {levels: 3}"), HasSubstr("levels"));
   EXPECT_THAT(refusal("priorities: [fca]"), HasSubstr("priorities"));
 }
@@ -84,6 +85,18 @@ TEST(PriorityValues, OfStrategiesThatComparePlansAreRefusedWithVotes) {
       EXPECT_THAT(error.what(), HasSubstr("--priorities = " + std::string(name) + ", must be"));
     }
   }
+}
+
+// Under `agreed` two vehicles that plan at the same time would not keep clear of each other.
+TEST(PriorityValues, WithALimitOfLevelsAreRefusedWithVotes) {
+  const PriorityRule limited{.max_levels = 2};
+  EXPECT_EQ(unsuitable_priorities({}, controller::kAgreedCoordination), "");
+  EXPECT_EQ(unsuitable_priorities(limited, controller::kStrictCoordination), "");
+  EXPECT_THAT(unsuitable_priorities(limited, controller::kAgreedCoordination),
+              HasSubstr("without max_levels"));
+  Scenario agreed = circle("random", "2022");
+  agreed.profile.strategies.priorities.max_levels = 2;
+  EXPECT_THROW(static_cast<void>(make_controller(agreed, {1})), std::invalid_argument);
 }
 
 }  // namespace
