@@ -32,6 +32,7 @@ inline constexpr std::size_t kMostOrderExpansions = 2'000;
 /// worse than `start`.
 /// @param start  a component of the graph, in the order to start from
 using SearchOrder = std::vector<VehicleId> (*)(const CouplingGraph& graph,
-                                               std::vector<VehicleId> start, const TryOrder& plan);
+                                               const std::vector<VehicleId>& start,
+                                               const TryOrder& plan);
 
 }  // namespace hlc::coordination

@@ -24,22 +24,23 @@ std::vector<bool> directions(const CouplingGraph& graph, const std::vector<Vehic
 }  // namespace
 
 std::vector<VehicleId> cheapest_of_all_orders(const CouplingGraph& graph,
-                                              std::vector<VehicleId> start, const TryOrder& plan,
-                                              std::size_t most_expanded) {
+                                              const std::vector<VehicleId>& start,
+                                              const TryOrder& plan, std::size_t most_expanded) {
   std::set<std::vector<bool>> tried{directions(graph, start)};
   std::vector<VehicleId> best = start;
   OrderCost least = plan(start);
   std::size_t expanded = least.expanded;
-  std::ranges::sort(start);
+  std::vector<VehicleId> order = start;
+  std::ranges::sort(order);
   do {
     if (expanded >= most_expanded) break;
-    if (!tried.insert(directions(graph, start)).second) continue;
-    OrderCost cost = plan(start);
+    if (!tried.insert(directions(graph, order)).second) continue;
+    OrderCost cost = plan(order);
     expanded += cost.expanded;
     if (!is_better(cost, least)) continue;
     least = std::move(cost);
-    best = start;
-  } while (std::ranges::next_permutation(start).found);
+    best = order;
+  } while (std::ranges::next_permutation(order).found);
   return best;
 }
 

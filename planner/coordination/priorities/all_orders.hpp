@@ -11,7 +11,7 @@ namespace hlc::coordination {
 /// the plans have expanded `most_expanded` vertices; of equal ones the first. Orders in which of
 /// every coupled pair the same vehicle plans first lead to the same plans: one of them is tried.
 [[nodiscard]] std::vector<VehicleId> cheapest_of_all_orders(const CouplingGraph& graph,
-                                                            std::vector<VehicleId> start,
+                                                            const std::vector<VehicleId>& start,
                                                             const TryOrder& plan,
                                                             std::size_t most_expanded);
 

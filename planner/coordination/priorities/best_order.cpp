@@ -88,12 +88,12 @@ class Promotions {
   OrderCost least_;
 };
 
-std::vector<VehicleId> promoted(const CouplingGraph& graph, std::vector<VehicleId> start,
+std::vector<VehicleId> promoted(const CouplingGraph& graph, const std::vector<VehicleId>& start,
                                 const TryOrder& plan) {
   if (start.size() <= kFew) {
-    return cheapest_of_all_orders(graph, std::move(start), plan, kMostOrderExpansions);
+    return cheapest_of_all_orders(graph, start, plan, kMostOrderExpansions);
   }
-  return Promotions(graph, std::move(start), plan).result();
+  return Promotions(graph, start, plan).result();
 }
 
 }  // namespace

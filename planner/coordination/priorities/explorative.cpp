@@ -7,7 +7,8 @@
 namespace hlc::coordination {
 namespace {
 
-std::vector<VehicleId> cheapest_rotation(const CouplingGraph& graph, std::vector<VehicleId> start,
+std::vector<VehicleId> cheapest_rotation(const CouplingGraph& graph,
+                                         const std::vector<VehicleId>& start,
                                          const TryOrder& plan) {
   const auto level_of = computation_levels(graph, PriorityOrder(start));
   std::size_t num_levels = 1;

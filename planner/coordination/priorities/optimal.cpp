@@ -1,6 +1,5 @@
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 #include "planner/coordination/priorities/all_orders.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
@@ -10,10 +9,9 @@ namespace {
 
 constexpr std::size_t kMostVehicles = 5;  // 120 orders
 
-std::vector<VehicleId> cheapest(const CouplingGraph& graph, std::vector<VehicleId> start,
+std::vector<VehicleId> cheapest(const CouplingGraph& graph, const std::vector<VehicleId>& start,
                                 const TryOrder& plan) {
-  return cheapest_of_all_orders(graph, std::move(start), plan,
-                                std::numeric_limits<std::size_t>::max());
+  return cheapest_of_all_orders(graph, start, plan, std::numeric_limits<std::size_t>::max());
 }
 
 }  // namespace

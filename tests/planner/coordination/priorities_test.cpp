@@ -87,7 +87,7 @@ class MadeUpCosts {
     double sum_m2 = 0.0;
     for (std::size_t j = 0; j < i; ++j) {
       if (!graph_->are_coupled(order[j], order[i])) continue;
-      std::mt19937_64 random(seed_ + 1000U * order[j].value + order[i].value);
+      std::mt19937_64 random(seed_ + std::uint64_t{1000} * order[j].value + order[i].value);
       sum_m2 += static_cast<double>(random_index(random, 1000));  // whole: sums are exact
     }
     return sum_m2;
