@@ -97,9 +97,10 @@ RunRows merge_rows(const std::vector<std::filesystem::path>& files) {
     }
   }
   if (merged.rows.size() < runs) {
-    refuse(files.back(),
-           fmt::format("is the last file and run {} in none, must be all runs 0 ... {}",
-                       missing_text(merged.rows, runs), runs - 1));
+    throw std::invalid_argument(
+        fmt::format("--merge: run {} in none of the {} files, must be all runs 0 ... {}; a shard "
+                    "that was interrupted goes on with the same command",
+                    missing_text(merged.rows, runs), files.size(), runs - 1));
   }
   return merged;
 }

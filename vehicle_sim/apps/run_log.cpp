@@ -9,10 +9,13 @@
 #include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "planner/common/sha256.hpp"
 #include "planner/common/text_file.hpp"
 
 namespace hlc::apps {
@@ -34,6 +37,23 @@ std::string differing_files(const Json& before, const Json& now) {
     if (file.is_object()) names += " " + file.value("file", std::string{});
   }
   return names;
+}
+
+constexpr std::string_view kCheck = ",\"check\":\"";
+constexpr std::size_t kDigits = 16;
+
+/// The line with a key more, the begin of its hash.
+std::string sealed(const std::string& line) {
+  return fmt::format("{}{}{}\"}}", line.substr(0, line.size() - 1), kCheck,
+                     sha256_of(line).substr(0, kDigits));
+}
+
+/// What `sealed` was given; none if this is not its result.
+std::optional<std::string> unsealed(const std::string& line) {
+  const std::size_t length = kCheck.size() + kDigits + 2;
+  if (line.size() <= length) return std::nullopt;
+  const std::string bare = line.substr(0, line.size() - length) + "}";
+  return sealed(bare) == line ? std::optional(bare) : std::nullopt;
 }
 
 }  // namespace
@@ -62,12 +82,13 @@ RunRows parse_run_rows(const std::string& text) {
   RunRows rows{.heading = lines.front(), .rows = {}};
   lines.pop_back();  // behind the last line break: empty, or an incomplete line
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    const Json record = Json::parse(lines[i], nullptr, false);
+    std::optional<std::string> row = unsealed(lines[i]);
+    const Json record = row ? Json::parse(*row, nullptr, false) : Json();
     if (!record.is_object() || !record.contains("run") || !record["run"].is_number_unsigned()) {
       throw std::invalid_argument(
-          fmt::format("line {} of runs.jsonl is no record of a run", i + 1));
+          fmt::format("line {} of runs.jsonl is no record of a run, or was changed", i + 1));
     }
-    rows.rows[record["run"].get<std::size_t>()] = lines[i];
+    rows.rows[record["run"].get<std::size_t>()] = *std::move(row);
   }
   return rows;
 }
@@ -174,7 +195,7 @@ void RunLog::append(std::size_t run, const std::string& line) {
   const std::filesystem::path file = folder_ / "runs.jsonl";
   const auto size = std::filesystem::file_size(file);
   std::ofstream stream(file, std::ios::app);
-  stream << line << '\n' << std::flush;
+  stream << sealed(line) << '\n' << std::flush;
   if (!stream) {
     // An incomplete line must not become the begin of the next one.
     stream.close();

@@ -17,16 +17,19 @@ struct RunRows {
   std::map<std::size_t, std::string> rows;  ///< one line of JSON each, by run
 };
 
-/// An incomplete last line is dropped.
-/// @throws std::invalid_argument "line 3 ... is no record of a run", without the file's name
+/// An incomplete last line is dropped. Of several rows of a run the last one counts: it was driven
+/// again.
+/// @throws std::invalid_argument "line 3 ... is no record of a run, or was changed", without the
+/// file's name
 [[nodiscard]] RunRows parse_run_rows(const std::string& text);
 
 /// In what a heading differs from the one wanted, with its own values: "seed 2, files town.yaml".
 [[nodiscard]] std::string differing_keys(const std::string& heading, const std::string& wanted);
 
 /// The file runs.jsonl in the folder of a campaign or sweep: a first line that identifies the
-/// campaign, then a line per run, written once it is driven. An interrupted campaign continues with
-/// the missing runs.
+/// campaign, then a line per run, written once it is driven; its last key, "check", shows whether
+/// it was changed (16 digits of the SHA-256 of the line without that key). An interrupted campaign
+/// continues with the missing runs.
 class RunLog {
  public:
   /// Makes the folder, or opens that of the same campaign, locked for this object's lifetime. An

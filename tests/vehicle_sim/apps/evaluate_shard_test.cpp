@@ -55,13 +55,14 @@ class EvaluateShards : public testing::Test {
     return run_program(command);
   }
 
-  /// That the merge is refused with one line that names the file and has this text.
+  /// That the merge is refused with one line that names the file, if there is one, and has this
+  /// text.
   void expect_refused(const std::vector<std::string>& files, const std::string& file,
                       const std::string& text) const {
     const Outcome outcome = merge(files);
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.output,
-                AllOf(HasSubstr("evaluate: --merge = " + file + ": "), HasSubstr(text)));
+    const std::string place = file.empty() ? ": " : " = " + file + ": ";
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("evaluate: --merge" + place), HasSubstr(text)));
     EXPECT_EQ(std::ranges::count(outcome.output, '\n'), 1) << outcome.output;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "merged"));
   }
@@ -119,9 +120,9 @@ TEST_F(EvaluateShards, AShardHasEveryNthRunAndNoTables) {
 
 TEST_F(EvaluateShards, RowsThatDoNotBelongTogetherAreRefusedInOneLine) {
   const std::string first = shard(1, 2);
-  const std::string second = shard(2, 2);
+  const std::string second = shard(2, 2, "--jobs 1");  // the last row is that of run 5
   const std::string good = read_file(second);
-  expect_refused({first}, first, "run 1, 3, 5 in none, must be all runs 0 ... 5");
+  expect_refused({first}, "", "run 1, 3, 5 in none of the 1 files, must be all runs 0 ... 5");
   expect_refused({first, second, first}, first, "run 0 is in " + first + ", too, must be in one");
   expect_refused({first, second + "x"}, second + "x", "is no file, must be");
   change_heading(second, "\"format\":1", "\"format\":0");
@@ -133,13 +134,16 @@ TEST_F(EvaluateShards, RowsThatDoNotBelongTogetherAreRefusedInOneLine) {
   change_heading(second, "\"seed\":1", "\"seed\":2");
   expect_refused({first, second}, second, "another campaign (seed 2), must be that of " + first);
   put(second, good.substr(0, good.size() - 40));
-  expect_refused({first, second}, second, "run 5 in none");
+  expect_refused({first, second}, "", "run 5 in none of the 2 files");
   put(second, good + "text\n");
   expect_refused({first, second}, second, "line 5 of runs.jsonl is no record of a run");
-  put(second, good + "{\"run\":6}\n");
-  expect_refused({first, second}, second, "run = 6, must be in 0 ... 5");
-  put(second, good + "{\"run\":5}\n");
-  expect_refused({first, second}, second, "the row of run 5 is damaged");
+  for (const auto& [was, is] :
+       {std::pair{"\"run\":5", "\"run\":7"}, {"\"start\":", "\"start\":1"}}) {
+    std::string changed = good;
+    changed.replace(changed.rfind(was), std::string(was).size(), is);
+    put(second, changed);
+    expect_refused({first, second}, second, "line 4 of runs.jsonl is no record of a run, or was");
+  }
   put(second, "text\n");
   expect_refused({first, second}, second, "the first line is not that of a campaign");
 }

@@ -47,6 +47,23 @@ TEST(RunLog, SaysInWhatAnotherCampaignDiffers) {
   }
 }
 
+TEST(RunLog, ARowThatWasChangedIsRefused) {
+  const test::TemporaryFolder folder;
+  {
+    RunLog log(folder / "out", kHeading);
+    log.append(0, R"({"run":0,"start":4})");
+    log.append(1, R"({"run":1,"start":5})");
+  }
+  const std::filesystem::path file = folder / "out" / "runs.jsonl";
+  const std::string before = test::read_text(file);
+  EXPECT_EQ(parse_run_rows(before).rows.at(1), R"({"run":1,"start":5})");
+  for (std::size_t i = before.find('\n') + 1; i + 1 < before.size(); ++i) {
+    std::string changed = before;
+    changed[i] = changed[i] == '1' ? '2' : '1';
+    EXPECT_THROW(static_cast<void>(parse_run_rows(changed)), std::invalid_argument) << i;
+  }
+}
+
 TEST(RunLog, AFolderHasOneWriterAtATime) {
   const test::TemporaryFolder folder;
   {
