@@ -38,11 +38,15 @@ std::set<VehicleId> take_component(VehicleId first, const Reports& reports,
   return component;
 }
 
-std::string percent(double share) {
-  return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : "any amount";
-}
+constexpr double kAnyExcess = 100.0;
+
+std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
 }  // namespace
+
+std::string excess_text(double excess) {
+  return excess < kAnyExcess ? percent(excess) : "any amount";
+}
 
 double JointGap::excess() const {
   if (is_closed()) return 0.0;
@@ -54,7 +58,7 @@ std::string text_of(const JointGap& gap) {
   std::string optimum = fmt::format("the joint optimum of {} vehicles", gap.vehicles.size());
   if (!gap.is_known) return "at an unknown distance from " + optimum;
   if (gap.is_closed()) return optimum;
-  return fmt::format("at most {} above {}", percent(gap.excess()), optimum);
+  return fmt::format("at most {} above {}", excess_text(gap.excess()), optimum);
 }
 
 std::optional<JointGapFigures> joint_gap_figures(std::span<const JointGap> gaps) {
@@ -86,7 +90,7 @@ std::string text_of(const JointGapFigures& figures) {
   return fmt::format(
       "the joint optimum in {} of {} cases, at most {} above it in 99 %, {} in all together",
       percent(static_cast<double>(figures.closed) / static_cast<double>(figures.known)),
-      figures.known, percent(figures.p99), percent(figures.total));
+      figures.known, excess_text(figures.p99), excess_text(figures.total));
 }
 
 std::vector<JointGap> joint_gaps(std::span<const Report* const> reports) {

@@ -45,6 +45,9 @@ struct JointGap {
   static constexpr double kRounding_m2 = 1e-9;
 };
 
+/// "4.2 %"; "any amount" from 10 000 % on, where the bound is hardly more than rounding.
+[[nodiscard]] std::string excess_text(double excess);
+
 /// "the joint optimum of 3 vehicles", "at most 4.2 % above the joint optimum of 3 vehicles"; how
 /// far is not known, "at an unknown distance from ...".
 [[nodiscard]] std::string text_of(const JointGap& gap);
