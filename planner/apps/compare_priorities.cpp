@@ -1,6 +1,7 @@
 // The authors' experiment with many cars, for every priority strategy: planning time of the whole
 // lab, computation levels, costs against the optimal order, deadlocks.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -28,7 +29,7 @@ constexpr double kPercent = 100.0;
 struct Flags {
   hlc::scenario::ScenarioChoices scenario;
   std::vector<std::size_t> cars;
-  std::vector<std::string> strategies{hlc::coordination::priority_strategy_names()};
+  std::vector<std::string> strategies;  ///< empty: all that suit the coordination
   std::size_t draws{3};
   std::optional<std::size_t> max_levels;
   hlc::apps::OutputFile rows{"--rows", {}};
@@ -47,10 +48,10 @@ void declare(CLI::App& app, Flags& flags) {
       ->delimiter(',')
       ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
   app.add_option("--strategies", flags.strategies,
-                 "NAME,NAME,... (default: all): " + hlc::scenario::priority_strategies_text())
+                 "NAME,NAME,... (default: all that suit the coordination): " +
+                     hlc::scenario::priority_strategies_text())
       ->delimiter(',')
-      ->check(hlc::apps::among(hlc::coordination::priority_strategy_names()))
-      ->default_str("");
+      ->check(hlc::apps::among(hlc::coordination::priority_strategy_names()));
   app.add_option("--draws", flags.draws,
                  "of the cars of a scenario that draws them, seeds 1, 2, ...; others have one")
       ->check(hlc::apps::whole(1, 10'000))
@@ -76,11 +77,9 @@ hlc::scenario::Scenario scenario_of(const Flags& flags, std::size_t cars,
   choices.priorities = strategy;
   if (draw != 0) choices.seed = draw;
   hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
-  hlc::controller::ControllerStrategies& rules = scenario.profile.strategies;
-  if (flags.max_levels) rules.priorities.max_levels = *flags.max_levels;
-  const std::string why =
-      hlc::scenario::unsuitable_priorities(rules.priorities, rules.coordination);
-  if (!why.empty()) throw std::invalid_argument("priorities, must be " + why);
+  if (flags.max_levels) {
+    scenario.profile.strategies.priorities.max_levels = *flags.max_levels;
+  }
   return scenario;
 }
 
@@ -146,7 +145,8 @@ std::string row_of(const Cell& cell, double period_s) {
           : fmt::format("{:.4f} ({})", all.cost_m2 / all.optimal_order_m2, all.compared),
       all.worse,
       gaps ? fmt::format(
-                 "{:.1f} % / {:.1f} % / {:.1f} %", kPercent * gaps->total, kPercent * gaps->p99,
+                 "{} / {} / {:.1f} %", hlc::coordination::excess_text(gaps->total),
+                 hlc::coordination::excess_text(gaps->p99),
                  kPercent * static_cast<double>(gaps->closed) / static_cast<double>(gaps->known))
            : "-");
 }
@@ -185,6 +185,27 @@ std::string csv_row(const Cell& cell, std::size_t draw, const PriorityTrial& tri
       .text();
 }
 
+/// Refuses what the scenario's coordination does not allow; chooses what it does.
+void choose_strategies(Flags& flags, const hlc::scenario::Scenario& scenario) {
+  const hlc::controller::CoordinationRule& coordination = scenario.profile.strategies.coordination;
+  if (coordination.commit.needs_votes && flags.max_levels) {
+    throw std::invalid_argument(fmt::format("--max_levels = {}, must be absent {}",
+                                            *flags.max_levels, hlc::scenario::kWithVotes));
+  }
+  std::vector<std::string> suitable;
+  for (const auto* one : hlc::coordination::priority_strategies()) {
+    if (!coordination.commit.needs_votes || one->search == nullptr) {
+      suitable.emplace_back(one->name);
+    }
+  }
+  if (flags.strategies.empty()) flags.strategies = suitable;
+  for (const std::string& name : flags.strategies) {
+    if (std::ranges::find(suitable, name) != suitable.end()) continue;
+    throw std::invalid_argument(fmt::format("--strategies = {}, must be of {} {}", name,
+                                            fmt::join(suitable, ", "), hlc::scenario::kWithVotes));
+  }
+}
+
 int run(Flags flags) {
   hlc::apps::check_output_files({flags.rows}, {flags.scenario.file});
   hlc::apps::check_each_once("--cars", flags.cars);
@@ -195,6 +216,7 @@ int run(Flags flags) {
       "vehicle_steps,driven_m,deadlock_step,compared_steps,cost_m2,optimal_order_m2,worse_steps,"
       "joint_excess\n";
   const hlc::scenario::Scenario any = scenario_of(flags, flags.cars.front(), "constant", 0);
+  choose_strategies(flags, any);
   const std::vector<std::size_t> draws = draws_of(flags, any);
   for (const std::size_t cars : flags.cars) {  // before anything is driven
     for (const std::string& strategy : flags.strategies) {

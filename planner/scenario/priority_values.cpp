@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "planner/coordination/priorities/strategies.hpp"
 
@@ -26,10 +27,19 @@ std::vector<VehicleId> read_first(const Node& node) {
   for (const Node& entry : node.list("first")) {
     const VehicleId id{
         static_cast<std::uint8_t>(entry.as<std::size_t>(between(1.0, kMaxVehicleId)))};
-    if (std::ranges::find(first, id) != first.end()) node.fail("first", "ids without a repetition");
+    if (std::ranges::find(first, id) != first.end())
+      entry.fail("an id that is not yet in the list");
     first.push_back(id);
   }
   return first;
+}
+
+std::vector<std::string_view> strategies_without_search() {
+  std::vector<std::string_view> names;
+  for (const coordination::PriorityStrategy* one : coordination::priority_strategies()) {
+    if (one->search == nullptr) names.push_back(one->name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -41,6 +51,7 @@ coordination::PriorityRule read_priorities(const Node& node) {
     return rule;
   }
   if (!node.has(kKey)) return rule;
+  if (node.is_list(kKey)) node.fail(kKey, "the name of a strategy or a map");
   const Node values = node.map(kKey);
   rule.strategy = read_strategy(values, "strategy");
   rule.first = read_first(values);
@@ -64,9 +75,9 @@ std::string unsuitable_priorities(const coordination::PriorityRule& priorities,
                                   const controller::CoordinationRule& coordination) {
   if (!coordination.commit.needs_votes) return "";
   if (priorities.strategy->search != nullptr) {
-    return "a strategy that compares no orders with coordination agreed";
+    return fmt::format("one of {} {}", fmt::join(strategies_without_search(), ", "), kWithVotes);
   }
-  return priorities.max_levels == 0 ? "" : "without max_levels with coordination agreed";
+  return priorities.max_levels == 0 ? "" : fmt::format("without max_levels {}", kWithVotes);
 }
 
 std::string priority_strategies_text() {

@@ -23,6 +23,9 @@ namespace hlc::scenario {
 [[nodiscard]] const coordination::PriorityStrategy* priority_strategy_from_flag(
     const std::string& name);
 
+/// For messages.
+inline constexpr const char* kWithVotes = "with coordination: agreed (that of profile 2022)";
+
 /// "" if plans stay free of each other under these priorities and this rule, otherwise what the
 /// priorities must be. Votes alone keep vehicles apart only if one of each coupled pair plans
 /// around the other; and they leave no time to compare orders.

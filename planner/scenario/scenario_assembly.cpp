@@ -117,9 +117,13 @@ controller::Rounds rounds_of(const ScenarioValues& values, const ScenarioChoices
   std::string why =
       unsuitable_priorities(profile.strategies.priorities, profile.strategies.coordination);
   if (why.empty() && strategy.search != nullptr && is_sequential) {
-    why = "a strategy that compares no orders with rounds: sequential";
+    why = "one that compares no orders with rounds: sequential";
   }
   if (!why.empty()) {
+    const bool is_map = !values.node.is_value("priorities");
+    if (strategy.search == nullptr)
+      values.node.map("priorities").fail("max_levels", "absent " + std::string(kWithVotes));
+    if (!choices.priorities && is_map) values.node.map("priorities").fail("strategy", why);
     if (!choices.priorities) values.node.fail("priorities", why);
     throw std::invalid_argument(
         fmt::format("--priorities = {}, must be {}", *choices.priorities, why));

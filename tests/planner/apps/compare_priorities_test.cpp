@@ -45,6 +45,14 @@ TEST(ComparePriorities, WritesARowForEachRun) {
   }
 }
 
+TEST(ComparePriorities, LeavesOutWhatDoesNotSuitTheCoordination) {
+  const Outcome outcome =
+      run_program("compare_priorities " + kScenarios + "circle.yaml --profile 2022 --steps 2");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("| waiting_time | "));
+  EXPECT_THAT(outcome.output, testing::Not(HasSubstr("| best_order | ")));
+}
+
 TEST(ComparePriorities, RefusesBadInputInOneLine) {
   for (const std::string& command :
        {std::string("compare_priorities /nowhere.yaml"),
@@ -55,6 +63,7 @@ TEST(ComparePriorities, RefusesBadInputInOneLine) {
         "compare_priorities " + kScenarios + "circle.yaml --cars 21",
         "compare_priorities " + kScenarios + "circle.yaml --rows /nowhere/rows.csv",
         "compare_priorities " + kScenarios + "circle.yaml --profile 2022 --strategies optimal",
+        "compare_priorities " + kScenarios + "circle.yaml --profile 2022 --max_levels 2",
         "compare_priorities " + kScenarios + "circle.yaml --fast"}) {
     const Outcome outcome = run_program(command);
     EXPECT_EQ(outcome.exit_code, 2) << command;

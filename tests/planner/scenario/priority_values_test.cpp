@@ -53,13 +53,13 @@ TEST(PriorityValues, ThatAreBadAreRefusedInOneLine) {
               AllOf(HasSubstr("file.yaml:1: priorities = fastest, must be"),
                     HasSubstr("constant, random, fca")));
   EXPECT_THAT(refusal("priorities: {strategy: 3}"), HasSubstr("priorities.strategy = 3, must be"));
-  EXPECT_THAT(refusal("priorities: {first: [2, 2]}"), HasSubstr("without a repetition"));
+  EXPECT_THAT(refusal("priorities: {first: [2, 2]}"), HasSubstr("priorities.first[2] = 2, must be an id that is not yet"));
   EXPECT_THAT(refusal("priorities: {first: [0]}"), HasSubstr("priorities.first[1] = 0, must be"));
   EXPECT_THAT(refusal("priorities: {max_levels: 0}"), HasSubstr("max_levels = 0, must be"));
   EXPECT_THAT(refusal("priorities: {beyond: optimal}"), HasSubstr("beyond = optimal, must be"));
   EXPECT_THAT(refusal("priorities: {beyond: fca}"), HasSubstr("beyond = fca, must be constant"));
   EXPECT_THAT(refusal("priorities: {levels: 3}"), HasSubstr("levels"));
-  EXPECT_THAT(refusal("priorities: [fca]"), HasSubstr("priorities"));
+  EXPECT_THAT(refusal("priorities: [fca]"), HasSubstr("the name of a strategy or a map"));
 }
 
 Scenario circle(const std::string& priorities, const std::string& profile = "default") {
