@@ -124,7 +124,7 @@ TEST(SweepPlan, BadFilesAreRefusedInOneLineWithPlaceValueAndWhatIsAllowed) {
   const std::string good = "{width_m: [0.1]}";
   const std::vector<Fault> faults{
       {file_with("{colour: red}"), "sweep.yaml:3: settings.colour = red"},
-      {file_with("{colour: red}"), "known keys: profile, coordination, reference_rule"},
+      {file_with("{colour: red}"), "known keys: profile, coordination, priorities, reference_rule"},
       {file_with("{width_m: [wide]}"), "settings.width_m[1] = wide, must be a number"},
       {file_with("{width_m: [0.1, -1]}"), "settings.width_m[2] = -1, must be"},
       {file_with("{width_m: [0.1, 0.10]}"), "settings.width_m[2] = 0.10, must be unique"},
