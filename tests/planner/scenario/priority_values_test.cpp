@@ -53,7 +53,8 @@ TEST(PriorityValues, ThatAreBadAreRefusedInOneLine) {
               AllOf(HasSubstr("file.yaml:1: priorities = fastest, must be"),
                     HasSubstr("constant, random, fca")));
   EXPECT_THAT(refusal("priorities: {strategy: 3}"), HasSubstr("priorities.strategy = 3, must be"));
-  EXPECT_THAT(refusal("priorities: {first: [2, 2]}"), HasSubstr("priorities.first[2] = 2, must be an id that is not yet"));
+  EXPECT_THAT(refusal("priorities: {first: [2, 2]}"),
+              HasSubstr("priorities.first[2] = 2, must be an id that is not yet"));
   EXPECT_THAT(refusal("priorities: {first: [0]}"), HasSubstr("priorities.first[1] = 0, must be"));
   EXPECT_THAT(refusal("priorities: {max_levels: 0}"), HasSubstr("max_levels = 0, must be"));
   EXPECT_THAT(refusal("priorities: {beyond: optimal}"), HasSubstr("beyond = optimal, must be"));
