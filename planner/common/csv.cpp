@@ -22,9 +22,11 @@ bool parse(const std::string& text, Number& value) {
 /// Splits a CSV text row by row.
 class RowScanner {
  public:
-  /// @param begin  of the second line
-  RowScanner(const std::filesystem::path& file, std::string_view text, std::size_t begin)
-      : file_{file}, text_{text}, at_{begin} {}
+  /// @param begin  of a row
+  /// @param line   in which it begins, from 1
+  RowScanner(const std::filesystem::path& file, std::string_view text, std::size_t begin,
+             std::size_t line)
+      : file_{file}, text_{text}, at_{begin}, line_{line} {}
 
   /// Nothing if the text ends before the row does.
   std::optional<CsvRow> next() {
@@ -79,7 +81,7 @@ class RowScanner {
   const std::filesystem::path& file_;
   std::string_view text_;
   std::size_t at_;
-  std::size_t line_{2};
+  std::size_t line_;
 };
 
 }  // namespace
@@ -107,27 +109,25 @@ CsvTable::CsvTable(const std::filesystem::path& file, std::string_view heading)
   if (end == std::string::npos || std::string_view{content}.substr(0, end) != heading) {
     throw std::runtime_error(fmt::format("{}:1: the heading must be {}", file.string(), heading));
   }
-  read_rows(content, end + 1);
+  RowScanner scanner{file_, content, end + 1, 2};
+  while (std::optional<CsvRow> row = scanner.next()) add(*std::move(row));
 }
 
 CsvTable::CsvTable(const std::filesystem::path& file) : file_{file} {
   std::string content = read_regular_file(file, "a CSV file");
   std::erase(content, '\r');
   if (!content.ends_with('\n')) content += '\n';
-  const std::size_t end = content.find('\n');
-  columns_ = split(std::string_view{content}.substr(0, end), ',');
-  read_rows(content, end + 1);
+  RowScanner scanner{file_, content, 0, 1};
+  if (std::optional<CsvRow> heading = scanner.next()) columns_ = std::move(heading->fields);
+  while (std::optional<CsvRow> row = scanner.next()) add(*std::move(row));
 }
 
-void CsvTable::read_rows(std::string_view text, std::size_t begin) {
-  RowScanner scanner{file_, text, begin};
-  while (std::optional<CsvRow> row = scanner.next()) {
-    if (row->fields.size() != columns_.size()) {
-      throw std::runtime_error(fmt::format("{}:{}: {} fields, must be {}", file_.string(),
-                                           row->line, row->fields.size(), columns_.size()));
-    }
-    rows_.push_back(std::move(*row));
+void CsvTable::add(CsvRow row) {
+  if (row.fields.size() != columns_.size()) {
+    throw std::runtime_error(fmt::format("{}:{}: {} fields, must be {}", file_.string(), row.line,
+                                         row.fields.size(), columns_.size()));
   }
+  rows_.push_back(std::move(row));
 }
 
 std::optional<std::size_t> CsvTable::find(std::string_view column) const {

@@ -87,7 +87,7 @@ class CsvTable {
   [[noreturn]] void refuse(std::size_t row, std::size_t column, std::string_view allowed) const;
 
  private:
-  void read_rows(std::string_view text, std::size_t begin);
+  void add(CsvRow row);
 
   std::filesystem::path file_;
   std::vector<std::string> columns_;

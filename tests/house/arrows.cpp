@@ -93,7 +93,7 @@ const Arrows kArrows{
      {"vehicle_sim", "hlc_bridge/process/shell.hpp", "hlc_bridge/process/log.hpp", "hlc_bridge/dds",
       "hlc_bridge/machine", "hlc_bridge/mcap/recorded_messages.hpp", "hlc_bridge/time",
       "hlc_bridge/messages", "hlc_bridge/result", "hlc_bridge/record", "hlc_bridge/apps",
-      "planner"}},
+      "hlc_bridge/render/child_process.hpp", "planner"}},
 };
 
 /// Of a folder everything in it, of a file that one.

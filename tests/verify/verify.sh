@@ -54,7 +54,7 @@ if ((${#xml[@]} > 0)); then
 fi
 [[ -x $bin/export_commonroad ]] || fail "no export_commonroad in $bin; build first, or give --bin"
 
-"$here/environment.sh" "$environment" || exit
+"$root/launch_scripts/python_environment.sh" "$environment" "$here/requirements.txt" || exit
 verify=(timeout 600 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/verify.py"
   --export "$bin/export_commonroad")
 

@@ -1,5 +1,5 @@
-// Drives a campaign of whole runs within one process, writes the evaluation's tables and draws its
-// figures.
+// Drives a campaign of whole runs within one process and writes their rows; tables, statistics and
+// figures are made from these by vehicle_sim/report.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -18,8 +18,8 @@
 #include "vehicle_sim/apps/evaluation_results.hpp"
 #include "vehicle_sim/apps/merged_rows.hpp"
 #include "vehicle_sim/apps/missing_runs.hpp"
+#include "vehicle_sim/apps/report.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
-#include "vehicle_sim/campaign/tradeoff.hpp"
 
 namespace {
 
@@ -33,6 +33,7 @@ struct Choices {
   std::string shard;                          ///< "2/20"; empty: all runs
   std::vector<std::filesystem::path> merged;  ///< not empty: no run is driven
   std::filesystem::path out;
+  bool makes_report{};
   hlc::apps::FigureChoices figures;
   bool is_sweep{false};  ///< otherwise a campaign
   std::filesystem::path sweep;
@@ -121,7 +122,7 @@ void draw(const hlc::campaign::Campaign& campaign, Choices& choices) {
   for (const std::filesystem::path& file : files) std::printf("%s\n", file.c_str());
 }
 
-hlc::campaign::EvaluationOrigin origin_of(const std::string& command) {
+hlc::apps::EvaluationOrigin origin_of(const std::string& command) {
   return {.command = command,
           .revision = hlc::program_revision(),
           .compiler = "GCC " __VERSION__,
@@ -144,22 +145,19 @@ int run_sweep(const Choices& choices, const std::string& command) {
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   files.finish(origin_of(command));
   std::printf("%zu runs, %zu do not count, %.1f s; %s\n", sweep.runs().size(), failed, wall_s,
-              (choices.out / "sweep.md").c_str());
+              (choices.out / "runs.csv").c_str());
+  if (choices.makes_report) hlc::apps::make_report(choices.out);
   return failed == 0 ? 0 : 1;
 }
 
 /// Prints the outcome of the rows. @return the exit code
-/// @param are_all  rows of all runs: the policies can be compared
-int report(const hlc::apps::RunLog& rows, double wall_s, const char* results, bool are_all = true) {
+int conclude(const hlc::apps::RunLog& rows, double wall_s, const char* results) {
   const std::vector<hlc::campaign::RunFigures> figures = hlc::apps::figures_of_rows(rows);
   const auto stuck = std::ranges::count_if(
       figures, [](const hlc::campaign::RunFigures& run) { return run.stuck_vehicles > 0; });
   const std::size_t failed = hlc::apps::num_failed(figures);
   std::printf("%zu runs, %zu failed, %td with a car stuck at the end, %.1f s; %s\n", figures.size(),
               failed, stuck, wall_s, (rows.folder() / results).c_str());
-  if (are_all && std::ranges::any_of(figures, hlc::campaign::has_policy)) {
-    std::printf("\n%s", hlc::campaign::tradeoff_markdown(figures).c_str());
-  }
   return failed == 0 ? 0 : 1;
 }
 
@@ -173,7 +171,10 @@ int merge(const Choices& choices, const std::string& command) {
   }
   for (const auto& [run, row] : merged.rows) rows.append(run, row);
   hlc::apps::write_results(rows, origin_of(command));
-  return report(rows, std::chrono::duration<double>(Clock::now() - begin).count(), "table.md");
+  const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  const int code = conclude(rows, wall_s, "runs.csv");
+  if (choices.makes_report) hlc::apps::make_report(choices.out);
+  return code;
 }
 
 int run(Choices choices, const std::string& command) {
@@ -184,10 +185,11 @@ int run(Choices choices, const std::string& command) {
   const Clock::time_point begin = Clock::now();
   hlc::apps::drive_campaign(campaign, choices.drive, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  if (!choices.shard.empty()) return report(files.rows(), wall_s, "runs.jsonl", false);
+  if (!choices.shard.empty()) return conclude(files.rows(), wall_s, "runs.jsonl");
   hlc::apps::write_results(files.rows(), origin_of(command));
-  const int code = report(files.rows(), wall_s, "table.md");
+  const int code = conclude(files.rows(), wall_s, "runs.csv");
   draw(campaign, choices);
+  if (choices.makes_report) hlc::apps::make_report(choices.out);
   return code;
 }
 
@@ -206,9 +208,8 @@ void declare_campaign(CLI::App& app, Choices& choices) {
                  "scenario's own")
       ->delimiter(',');
   app.add_option("--policies", choices.plan.policies,
-                 "of the scenario: drives it also on its own subgraph with each of these policies, "
-                 "and writes the tables `tradeoff`; without, no policy drives, not even the "
-                 "scenario's own")
+                 "of the scenario: drives it also on its own subgraph with each of these policies; "
+                 "without, no policy drives, not even the scenario's own")
       ->delimiter(',');
   app.add_option("--starts", choices.plan.starts,
                  "number of starts: the scenario's own, then random ones on the routes, or other "
@@ -237,9 +238,13 @@ void declare_campaign(CLI::App& app, Choices& choices) {
                "also keep the run folder of each run, OUT/runs/<number>, as run_lab.sh leaves it, "
                "for export_commonroad and summarize");
   app.add_option("--out", choices.out,
-                 "folder for results.json, table.md, table.csv, with --policies also tradeoff.md, "
-                 "tradeoff.csv, tradeoff_fronts.csv; an interrupted campaign goes on")
+                 "folder for runs.csv (a row per run), cars.csv (a row per run and car), "
+                 "campaign.json; an interrupted campaign goes on")
       ->required();
+  app.add_flag("--report", choices.makes_report,
+               "also makes the page OUT/report.md from the rows: tables, statistics, figures "
+               "(vehicle_sim/report; its Python packages are installed once, into "
+               "build/report_environment)");
 }
 
 void declare_figures(CLI::App& app, Choices& choices) {
@@ -278,12 +283,13 @@ void declare_shards(CLI::App& app, Choices& choices) {
                  "alone: for job arrays, each with an --out of its own")
       ->check(hlc::apps::allowing(
           [](const std::string& text) { return shard_of(text).has_value(); }, allowed, allowed))
-      ->excludes(app.get_option("--figures"));
+      ->excludes(app.get_option("--figures"))
+      ->excludes(app.get_option("--report"));
   CLI::Option* merge =
       app.add_option("--merge", choices.merged,
                      "the runs.jsonl of all shards of a campaign, as runs/*/runs.jsonl: drives "
                      "nothing, writes to --out what one call for all runs would have written");
-  exclude_all_but(app, merge, {"--out"});
+  exclude_all_but(app, merge, {"--out", "--report"});
 }
 
 /// The option that replaces all the others that select the runs.
@@ -294,19 +300,21 @@ CLI::Option* declare(CLI::App& app, Choices& choices) {
   CLI::Option* sweep = app.add_option(
       "--sweep", choices.sweep,
       "a file with the settings and their values (launch_scripts/sweeps/README.md): drives "
-      "every combination instead of a campaign, writes sweep.csv and sweep.md");
-  exclude_all_but(app, sweep, {"--jobs", "--out"});
+      "every combination instead of a campaign");
+  exclude_all_but(app, sweep, {"--jobs", "--out", "--report"});
   app.footer(
-      "Exit codes: 0 all runs driven, 1 some failed (reasons in results.json, sweep.csv), 2 bad "
-      "input, 3 a record, table, figure or the printed output cannot be written; existing "
-      "stays.");
+      "Exit codes: 0 all runs driven, 1 some failed (reasons in runs.csv), 2 bad input, 3 rows, "
+      "figures, the report or the printed output cannot be written; existing stays.");
   return sweep;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Simulates many runs and compares them with the paper's Table 2.", "evaluate"};
+  CLI::App app{
+      "Simulates many runs and writes their rows; with --report, compares them with the paper's "
+      "Table 2.",
+      "evaluate"};
   Choices choices;
   CLI::Option* sweep = declare(app, choices);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitNotWritten)) return *code;

@@ -14,9 +14,8 @@ namespace hlc::apps {
 ///
 ///     runs.jsonl           first line: what the campaign is, with the hashes of all files that it
 ///                          reads; then a line per run, once driven
-///     results.json         {"campaign": ..., "runs": [...]}, in the order of the campaign
-///     table.md, table.csv
-///     tradeoff.md, tradeoff.csv, tradeoff_fronts.csv   of a campaign with policies (tradeoff.hpp)
+///     runs.csv, cars.csv   a row per run, and per run and car (row_tables.hpp)
+///     campaign.json        that first line, and where the rows come from
 ///     figures/             what evaluation_figures.hpp draws
 ///
 /// A run's record has the keys of summary.json and "run" (its number), "start", "policy" (`none`

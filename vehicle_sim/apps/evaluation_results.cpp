@@ -4,16 +4,26 @@
 
 #include "planner/common/text_file.hpp"
 #include "vehicle_sim/apps/figures_record.hpp"
-#include "vehicle_sim/campaign/tradeoff.hpp"
+#include "vehicle_sim/apps/row_tables.hpp"
 
 namespace hlc::apps {
 
 using Json = nlohmann::ordered_json;
 
+std::string campaign_json(const std::string& kind, const EvaluationOrigin& origin,
+                          const Json& content) {
+  Json json;
+  json["kind"] = kind;
+  json["origin"] = Json{{"command", origin.command},
+                        {"revision", origin.revision},
+                        {"compiler", origin.compiler},
+                        {"processor", origin.processor}};
+  json[kind] = content;
+  return json.dump(1) + "\n";
+}
+
 const std::vector<std::string>& result_files() {
-  static const std::vector<std::string> kNames{"results.json", "table.md",
-                                               "table.csv",    "tradeoff.md",
-                                               "tradeoff.csv", "tradeoff_fronts.csv"};
+  static const std::vector<std::string> kNames{"campaign.json", "runs.csv", "cars.csv"};
   return kNames;
 }
 
@@ -32,19 +42,20 @@ std::vector<campaign::RunFigures> figures_of_rows(const RunLog& log) {
   return figures;
 }
 
-void write_results(const RunLog& log, const campaign::EvaluationOrigin& origin) {
-  Json results;
-  results["campaign"] = Json::parse(log.heading());
-  results["runs"] = Json::array();
-  for (const auto& [run, line] : log.records()) results["runs"].push_back(Json::parse(line));
-  write_file(log.folder() / "results.json", results.dump(1) + "\n");
-  const std::vector<campaign::RunFigures> runs = figures_of_rows(log);
-  write_file(log.folder() / "table.md", campaign::evaluation_markdown(runs, origin));
-  write_file(log.folder() / "table.csv", campaign::evaluation_csv(runs));
-  if (results["campaign"].at("policies").empty()) return;
-  write_file(log.folder() / "tradeoff.md", campaign::tradeoff_markdown(runs));
-  write_file(log.folder() / "tradeoff.csv", campaign::tradeoff_csv(runs));
-  write_file(log.folder() / "tradeoff_fronts.csv", campaign::tradeoff_fronts_csv(runs));
+void write_results(const RunLog& log, const EvaluationOrigin& origin) {
+  std::vector<RunRow> runs;
+  std::vector<Json> records;
+  for (const auto& [run, line] : log.records()) {
+    records.push_back(Json::parse(line));
+    runs.push_back({.run = run,
+                    .settings = {},
+                    .figures = figures_of_row(records.back()),
+                    .was_driven = records.back().contains("figures")});
+  }
+  write_file(log.folder() / "runs.csv", runs_csv({}, runs, true));
+  write_file(log.folder() / "cars.csv", cars_csv(records));
+  write_file(log.folder() / "campaign.json",
+             campaign_json("campaign", origin, Json::parse(log.heading())));
 }
 
 }  // namespace hlc::apps

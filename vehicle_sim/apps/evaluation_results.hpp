@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vehicle_sim/apps/run_log.hpp"
-#include "vehicle_sim/campaign/evaluation_table.hpp"
+#include "vehicle_sim/campaign/run_figures.hpp"
 
 namespace hlc::apps {
 
@@ -14,7 +14,19 @@ namespace hlc::apps {
 /// of the rows has it as "format", and the number of the campaign's runs as "runs".
 inline constexpr std::size_t kRowFormat = 1;
 
-/// The names of the files that write_results may write.
+/// Where rows come from.
+struct EvaluationOrigin {
+  std::string command;
+  std::string revision;
+  std::string compiler;
+  std::string processor;
+};
+
+/// campaign.json: {"kind": ..., "origin": {...}, KIND: content}.
+[[nodiscard]] std::string campaign_json(const std::string& kind, const EvaluationOrigin& origin,
+                                        const nlohmann::ordered_json& content);
+
+/// The names of the files that write_results writes.
 [[nodiscard]] const std::vector<std::string>& result_files();
 
 /// The figures of a row, from the row alone.
@@ -24,7 +36,8 @@ inline constexpr std::size_t kRowFormat = 1;
 /// The figures of all rows, by run. @pre EvaluationFiles or merge_rows checked them
 [[nodiscard]] std::vector<campaign::RunFigures> figures_of_rows(const RunLog& log);
 
-/// Writes results.json and the tables of the rows beside them: of equal rows the same.
-void write_results(const RunLog& log, const campaign::EvaluationOrigin& origin);
+/// Writes campaign.json, runs.csv and cars.csv (row_tables.hpp) beside the rows: of equal rows the
+/// same.
+void write_results(const RunLog& log, const EvaluationOrigin& origin);
 
 }  // namespace hlc::apps

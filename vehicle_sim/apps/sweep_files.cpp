@@ -8,9 +8,7 @@
 #include "planner/common/text_file.hpp"
 #include "vehicle_sim/apps/figures_record.hpp"
 #include "vehicle_sim/apps/input_files.hpp"
-#include "vehicle_sim/campaign/sweep_csv.hpp"
-#include "vehicle_sim/campaign/sweep_report.hpp"
-#include "vehicle_sim/campaign/sweep_tables.hpp"
+#include "vehicle_sim/apps/row_tables.hpp"
 
 namespace hlc::apps {
 namespace {
@@ -30,6 +28,64 @@ campaign::RunFigures figures_of(const campaign::Sweep& sweep, std::size_t run, c
   return figures_of_record(record, sweep.heading_of(run));
 }
 
+/// Numbers from 1, as in the setting `trims`.
+Json numbers(const std::vector<TrimId>& trims) {
+  Json list = Json::array();
+  for (const TrimId trim : trims) list.push_back(trim.index + 1);
+  return list;
+}
+
+/// The trims of the configuration's subgraphs, and which trims move.
+Json trims_of(const campaign::Sweep& sweep) {
+  Json offered = Json::object();
+  for (const automaton::SubgraphSpec& spec : sweep.offered_subgraphs()) {
+    offered[spec.name] = numbers(spec.trims);
+  }
+  return {{"offered", std::move(offered)}, {"moving", numbers(sweep.moving_trims())}};
+}
+
+/// What was swept, for campaign.json.
+Json content_of(const campaign::Sweep& sweep) {
+  const campaign::SweepPlan& plan = sweep.plan();
+  Json content{{"file", plan.file.filename().string()},
+               {"scenarios", Json::array()},
+               {"subgraphs", plan.subgraphs},
+               {"starts", plan.starts},
+               {"combinations", sweep.combinations().size()},
+               {"automata", sweep.num_automata()},
+               {"settings", Json::array()},
+               {"tables", Json::array()},
+               {"trims", trims_of(sweep)}};
+  for (const auto& file : plan.scenarios) content["scenarios"].push_back(file.stem().string());
+  for (const campaign::SweepAxis& axis : plan.axes) {
+    Json values = Json::array();
+    for (const campaign::SweepValue& value : axis.values) values.push_back(value.text);
+    content["settings"].push_back({{"name", axis.setting}, {"values", std::move(values)}});
+  }
+  for (const std::vector<std::size_t>& table : plan.tables) {
+    Json names = Json::array();
+    for (const std::size_t axis : table) names.push_back(plan.axes[axis].setting);
+    content["tables"].push_back(std::move(names));
+  }
+  return content;
+}
+
+/// Of runs.csv, with `set.` before the names: a setting may be named like a column.
+std::vector<std::string> setting_columns(const campaign::SweepPlan& plan) {
+  std::vector<std::string> names{"combination"};
+  for (const campaign::SweepAxis& axis : plan.axes) names.push_back("set." + axis.setting);
+  return names;
+}
+
+std::vector<std::string> setting_values(const campaign::Sweep& sweep, std::size_t run) {
+  const std::size_t number = sweep.runs()[run].combination;
+  std::vector<std::string> values{std::to_string(number)};
+  for (const campaign::SweepAxis& axis : sweep.plan().axes) {
+    values.push_back(value_of(sweep.plan(), sweep.combinations()[number], axis.setting)->text);
+  }
+  return values;
+}
+
 }  // namespace
 
 SweepFiles::SweepFiles(std::filesystem::path folder, const campaign::Sweep& sweep)
@@ -37,7 +93,7 @@ SweepFiles::SweepFiles(std::filesystem::path folder, const campaign::Sweep& swee
   log_.check(sweep.runs().size(), [this](std::size_t run, const Json& record) {
     static_cast<void>(figures_of(sweep_, run, record));
   });
-  log_.check_outputs({"sweep.csv", "tables.csv", "sweep.md"});
+  log_.check_outputs({"campaign.json", "runs.csv"});
 }
 
 void SweepFiles::add(std::size_t run, const campaign::SweepResult& result) {
@@ -61,11 +117,18 @@ std::vector<campaign::RunFigures> SweepFiles::figures() const {
   return result;
 }
 
-void SweepFiles::finish(const campaign::EvaluationOrigin& origin) const {
-  const std::vector<campaign::RunFigures> runs = figures();
-  write_file(log_.folder() / "sweep.csv", campaign::sweep_csv(sweep_, runs));
-  write_file(log_.folder() / "tables.csv", campaign::sweep_tables_csv(sweep_, runs));
-  write_file(log_.folder() / "sweep.md", campaign::sweep_markdown(sweep_, runs, origin));
+void SweepFiles::finish(const EvaluationOrigin& origin) const {
+  HLC_DEMAND(log_.size() == sweep_.runs().size(), log_.size(), sweep_.runs().size());
+  std::vector<RunRow> rows;
+  for (const auto& [run, line] : log_.records()) {
+    const Json record = Json::parse(line);
+    rows.push_back({.run = run,
+                    .settings = setting_values(sweep_, run),
+                    .figures = figures_of(sweep_, run, record),
+                    .was_driven = record.contains("figures")});
+  }
+  write_file(log_.folder() / "runs.csv", runs_csv(setting_columns(sweep_.plan()), rows, false));
+  write_file(log_.folder() / "campaign.json", campaign_json("sweep", origin, content_of(sweep_)));
 }
 
 }  // namespace hlc::apps

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "vehicle_sim/apps/evaluation_results.hpp"
 #include "vehicle_sim/apps/run_log.hpp"
-#include "vehicle_sim/campaign/evaluation_table.hpp"
 #include "vehicle_sim/campaign/sweep.hpp"
 
 namespace hlc::apps {
@@ -14,9 +14,8 @@ namespace hlc::apps {
 ///
 ///     runs.jsonl             first line: all files that the sweep reads with their hashes,
 ///                            revision; then a line per run, once driven
-///     sweep.csv              a row per run (sweep_csv.hpp)
-///     sweep.md               what was found (sweep_report.hpp)
-///     tables.csv             its tables by setting (sweep_tables.hpp)
+///     runs.csv               a row per run with its settings (row_tables.hpp)
+///     campaign.json          what was swept: the settings with their values
 ///
 /// A run's record: "run" (its number), "failure" (null, or why it does not count), and, if it was
 /// driven, "figures" (figures_record.hpp) and "trace_sha256".
@@ -34,8 +33,8 @@ class SweepFiles {
 
   /// Of all runs, in the order of the sweep. @pre all are there
   [[nodiscard]] std::vector<campaign::RunFigures> figures() const;
-  /// Writes sweep.csv, sweep.md and tables.csv. @pre all runs are there
-  void finish(const campaign::EvaluationOrigin& origin) const;
+  /// Writes runs.csv and campaign.json. @pre all runs are there
+  void finish(const EvaluationOrigin& origin) const;
 
  private:
   const campaign::Sweep& sweep_;

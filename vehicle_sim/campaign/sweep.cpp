@@ -102,6 +102,14 @@ std::size_t Sweep::automaton_of(std::size_t run) const {
   return automaton_of_[runs_.at(run).combination];
 }
 
+std::vector<TrimId> Sweep::moving_trims() const {
+  std::vector<TrimId> moving;
+  for (std::size_t i = 0; i < trims_.size(); ++i) {
+    if (!trims_[i].is_equilibrium()) moving.push_back(TrimId{i});
+  }
+  return moving;
+}
+
 void Sweep::build(std::size_t automaton) {
   DesignedAutomaton& designed = automata_.at(automaton);
   try {

@@ -48,7 +48,8 @@ class Sweep {
   [[nodiscard]] const std::vector<automaton::SubgraphSpec>& offered_subgraphs() const {
     return offered_;
   }
-  [[nodiscard]] bool is_moving(TrimId trim) const { return !trims_[trim.index].is_equilibrium(); }
+  /// The trims of the configuration that are no standstill.
+  [[nodiscard]] std::vector<TrimId> moving_trims() const;
 
   [[nodiscard]] std::size_t num_automata() const { return automata_.size(); }
   [[nodiscard]] std::size_t automaton_of(std::size_t run) const;

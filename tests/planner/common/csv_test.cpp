@@ -98,6 +98,13 @@ TEST_F(CsvTableTest, RefusesWhatIsNoNumberAndNamesThePlace) {
   EXPECT_THROW((void)csv.number(2, 0), std::runtime_error);
 }
 
+TEST_F(CsvTableTest, ColumnsOfAFileOfAnybodyMayHoldCommasWithinQuotes) {
+  test::put(folder_ / "t.csv", "run,\"share.J2, at most 0.6 m/s\"\n1,0.5\n");
+  const CsvTable csv(folder_ / "t.csv");
+  EXPECT_EQ(csv.columns(), (std::vector<std::string>{"run", "share.J2, at most 0.6 m/s"}));
+  EXPECT_EQ(csv.number(0, 1), 0.5);
+}
+
 TEST_F(CsvTableTest, AFileOfAnybodyMayHaveAnyColumnsAndLineEnds) {
   test::put(folder_ / "t.csv", "x,y\r\n1,2\r\n3,4");
   const CsvTable csv(folder_ / "t.csv");

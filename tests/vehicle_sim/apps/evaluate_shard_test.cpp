@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <random>
-#include <regex>
 
 #include "planner/common/random_index.hpp"
 #include "planner/common/text_file.hpp"
@@ -22,13 +21,6 @@ using testing::EndsWith;
 using testing::HasSubstr;
 
 constexpr int kRuns = 6;
-
-/// The rows without those of times.
-std::string timeless_table(const std::string& csv) {
-  static const std::regex kTimes(
-      "[^\n]*,(planning_[a-z]+_ms|step_[a-z0-9]+_ms|wall_[a-z_]+),[^\n]*\n");
-  return std::regex_replace(csv, kTimes, "");
-}
 
 class EvaluateShards : public testing::Test {
  protected:
@@ -81,12 +73,8 @@ class EvaluateShards : public testing::Test {
 
 TEST_F(EvaluateShards, MergedInAnyOrderTheyAreWhatOneCallWrites) {
   ASSERT_EQ(evaluate("", "whole").exit_code, 0);
-  const auto whole =
-      timeless(nlohmann::ordered_json::parse(read_file(folder_ / "whole/results.json")));
-  const std::string table = timeless_table(read_file(folder_ / "whole/table.csv"));
+  const nlohmann::json whole = timeless(rows_of(folder_ / "whole"));
   ASSERT_EQ(whole["runs"].size(), std::size_t{kRuns});
-  ASSERT_THAT(table, HasSubstr("longest_wait_s"));
-  ASSERT_THAT(table, Not(HasSubstr("planning_mean_ms")));
   for (std::uint64_t seed = 1; seed <= num_costly_seeds(4); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
@@ -99,10 +87,11 @@ TEST_F(EvaluateShards, MergedInAnyOrderTheyAreWhatOneCallWrites) {
     const Outcome outcome = merge(files);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr("6 runs, 0 failed"));
-    EXPECT_EQ(
-        timeless(nlohmann::ordered_json::parse(read_file(folder_ / "merged/results.json"))).dump(),
-        whole.dump());
-    EXPECT_EQ(timeless_table(read_file(folder_ / "merged/table.csv")), table);
+    EXPECT_EQ(timeless(rows_of(folder_ / "merged")), whole);
+    for (const char* table : {"runs.csv", "cars.csv"}) {
+      EXPECT_EQ(timeless_table(folder_ / "merged" / table),
+                timeless_table(folder_ / "whole" / table));
+    }
     // One call for all runs finds them driven.
     EXPECT_THAT(evaluate("", "merged").output, HasSubstr("6 of 6 runs already driven"));
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
@@ -111,11 +100,11 @@ TEST_F(EvaluateShards, MergedInAnyOrderTheyAreWhatOneCallWrites) {
   }
 }
 
-TEST_F(EvaluateShards, AShardHasEveryNthRunAndNoTables) {
+TEST_F(EvaluateShards, AShardHasEveryNthRunAndNothingElse) {
   const std::string rows = read_file(shard(2, 4));
   EXPECT_EQ(std::ranges::count(rows, '\n'), 3);
   EXPECT_THAT(rows, AllOf(HasSubstr("\n{\"run\":1,"), HasSubstr("\n{\"run\":5,")));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "shard_2/table.md"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "shard_2/runs.csv"));
 }
 
 TEST_F(EvaluateShards, RowsThatDoNotBelongTogetherAreRefusedInOneLine) {
@@ -170,6 +159,7 @@ TEST_F(EvaluateShards, FlagsOutOfBoundsAreRefused) {
     EXPECT_THAT(outcome.output, HasSubstr("must be I/N, 1 <= I <= N <= 100000")) << shard;
   }
   EXPECT_THAT(evaluate("--shard 1/2 --figures all", "out").output, EndsWith("excludes --shard\n"));
+  EXPECT_THAT(evaluate("--shard 1/2 --report", "out").output, HasSubstr("excludes"));
   EXPECT_THAT(evaluate("--merge rows.jsonl", "out").output, HasSubstr("excludes"));
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "planner/common/csv.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -32,15 +33,14 @@ class Evaluate : public testing::Test {
     return run_program("evaluate --scenario paper_red_alone --subgraphs B,D --starts 2 --steps 20" +
                        kScenarios + " --out " + out_.string() + " " + flags);
   }
-  [[nodiscard]] nlohmann::json results() const {
-    return nlohmann::json::parse(text_of(out_ / "results.json"));
-  }
+  [[nodiscard]] nlohmann::json results() const { return rows_of(out_); }
+  [[nodiscard]] CsvTable table(const std::string& name) const { return CsvTable(out_ / name); }
 
   TemporaryFolder folder_;
   std::filesystem::path out_{folder_ / "campaign"};
 };
 
-TEST_F(Evaluate, WritesOneRecordPerRunAndTablesBesideThePapersColumns) {
+TEST_F(Evaluate, WritesOneRowPerRunAndOnePerRunAndCar) {
   const Outcome done = evaluate("--jobs 2");
   ASSERT_EQ(done.exit_code, 0) << done.output;
   const nlohmann::json runs = results()["runs"];
@@ -52,9 +52,30 @@ TEST_F(Evaluate, WritesOneRecordPerRunAndTablesBesideThePapersColumns) {
     EXPECT_EQ(runs[i]["steps"], 20);
     EXPECT_TRUE(runs[i]["failure"].is_null());
   }
-  EXPECT_THAT(text_of(out_ / "table.md"), HasSubstr("| | B | paper | D | paper |"));
-  EXPECT_THAT(text_of(out_ / "table.csv"),
-              HasSubstr("paper_red_alone,default,D,none,generated_max,2,"));
+  const CsvTable rows = table("runs.csv");
+  const CsvTable cars = table("cars.csv");
+  ASSERT_EQ(rows.size(), 4U);
+  ASSERT_EQ(cars.size(), 4U);
+  const auto column = [&](const CsvTable& of, const char* name) { return of.find(name).value(); };
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    EXPECT_EQ(rows.unsigned_number(i, column(rows, "run")), i);
+    EXPECT_EQ(rows.text(i, column(rows, "subgraph")), i < 2 ? "B" : "D");
+    EXPECT_EQ(rows.text(i, column(rows, "policy")), "none");
+    EXPECT_EQ(rows.text(i, column(rows, "failure")), "");
+    EXPECT_EQ(rows.text(i, column(rows, "lap_s")), "") << "20 steps are no lap";
+    EXPECT_EQ(rows.number(i, column(rows, "share.D")), i < 2 ? 0.0 : 1.0);
+    for (const char* name : {"error_mean_mm", "generated_max", "planning_max_ms", "wall_s"}) {
+      EXPECT_EQ(rows.number(i, column(rows, name)), runs[i]["figures"][name]) << name;
+    }
+    EXPECT_EQ(cars.text(i, column(cars, "name")), "red");
+    EXPECT_EQ(cars.number(i, column(cars, "error_mean_mm")),
+              runs[i]["vehicles"][0]["reference_error_mm"]["mean"]);
+    EXPECT_EQ(cars.text(i, column(cars, "is_stuck")), "false");
+  }
+  const auto campaign = nlohmann::json::parse(text_of(out_ / "campaign.json"));
+  EXPECT_EQ(campaign["kind"], "campaign");
+  EXPECT_EQ(campaign["campaign"], results()["campaign"]);
+  EXPECT_THAT(campaign["origin"]["command"].get<std::string>(), HasSubstr("--subgraphs B,D"));
 }
 
 TEST_F(Evaluate, GoesOnWhereItWasInterrupted) {
@@ -65,11 +86,13 @@ TEST_F(Evaluate, GoesOnWhereItWasInterrupted) {
   std::size_t cut = 0;
   for (int line = 0; line < 3; ++line) cut = lines.find('\n', cut) + 1;
   put(out_ / "runs.jsonl", lines.substr(0, cut + 40));
-  std::filesystem::remove(out_ / "results.json");
+  const auto rows = timeless_table(out_ / "runs.csv");
+  std::filesystem::remove(out_ / "runs.csv");
   const Outcome again = evaluate("");
   EXPECT_EQ(again.exit_code, 0) << again.output;
   EXPECT_THAT(again.output, HasSubstr("2 of 4 runs already driven"));
   EXPECT_EQ(timeless(results()), whole);
+  EXPECT_EQ(timeless_table(out_ / "runs.csv"), rows);
 }
 
 TEST_F(Evaluate, DrivesMoreCarsThanTheLabHas) {
@@ -230,8 +253,9 @@ TEST_F(Evaluate, ARunThatFailsIsRecordedWithItsReasonAndDoesNotStopTheOthers) {
   EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("left its announced areas"));
   EXPECT_EQ(runs[0]["subgraph"], "effort");
   EXPECT_TRUE(runs[1]["failure"].is_null());
-  EXPECT_THAT(text_of(out_ / "table.md"),
-              HasSubstr("Failed: subgraph effort, start 0: vehicle 1 left its announced areas"));
+  const CsvTable rows = table("runs.csv");
+  EXPECT_THAT(rows.text(0, rows.find("failure").value()), HasSubstr("left its announced areas"));
+  EXPECT_EQ(rows.text(1, rows.find("failure").value()), "");
 }
 
 TEST_F(Evaluate, AMapThatCannotBeReadIsBadInput) {
@@ -293,7 +317,7 @@ class EvaluatePolicies : public Evaluate {
   }
 };
 
-TEST_F(EvaluatePolicies, AreInRecordsAndTablesAndWeighedAgainstTheFixedSubgraphs) {
+TEST_F(EvaluatePolicies, AreInRecordsAndTables) {
   const Outcome done = drive("--subgraphs J2,comfort --policies zone,situation --jobs 2");
   ASSERT_EQ(done.exit_code, 0) << done.output;
   const nlohmann::json written = results();
@@ -313,20 +337,17 @@ TEST_F(EvaluatePolicies, AreInRecordsAndTablesAndWeighedAgainstTheFixedSubgraphs
     EXPECT_NEAR(shares, 1.0, 1e-12);
     EXPECT_TRUE(i >= 2 || runs[i]["figures"]["switches"] == 0);
   }
-  EXPECT_THAT(text_of(out_ / "table.md"),
-              HasSubstr("| | J2 | comfort | policy zone | policy situation |"));
-  EXPECT_THAT(text_of(out_ / "table.csv"), HasSubstr(",default,J2,zone,generated_max,1,"));
-  // 20 steps are no lap: no row competes.
-  const std::string tradeoff = text_of(out_ / "tradeoff.md");
-  EXPECT_THAT(tradeoff, HasSubstr("| policy zone | - |"));
-  EXPECT_THAT(done.output, HasSubstr(tradeoff));
-  EXPECT_THAT(text_of(out_ / "tradeoff.csv"), HasSubstr("\nreconfiguration,default,J2,zone,,"));
-  EXPECT_TRUE(std::filesystem::exists(out_ / "tradeoff_fronts.csv"));
+  const CsvTable rows = table("runs.csv");
+  const CsvTable cars = table("cars.csv");
+  EXPECT_EQ(cars.size(), 12U) << "three cars";
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    EXPECT_EQ(rows.text(i, rows.find("policy").value()), runs[i]["policy"]);
+    EXPECT_EQ(cars.text(3 * i, cars.find("policy").value()), runs[i]["policy"]);
+  }
 }
 
 TEST_F(EvaluatePolicies, GoOnWhereTheyWereInterruptedInTheirOwnFolderOnly) {
   ASSERT_EQ(drive("").exit_code, 0);
-  EXPECT_FALSE(std::filesystem::exists(out_ / "tradeoff.md"));
   const std::string without = text_of(out_ / "runs.jsonl");
   const Outcome other = drive("--policies zone");
   EXPECT_EQ(other.exit_code, 2);
