@@ -24,7 +24,7 @@ cd "$root" || exit 1
 
 # Folders of tests/ with tests, and their parents, named like the sources.
 test_folders() {
-  grep -rl --include=CMakeLists.txt hlc_add_test tests | while read -r file; do
+  grep -rlE --include=CMakeLists.txt "hlc_add_test|run_python_tests" tests | while read -r file; do
     folder=${file%/CMakeLists.txt}
     while [[ $folder == tests/* ]]; do
       echo "${folder#tests/}"

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -17,6 +17,7 @@
 #include "planner/common/text_file.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
 #include "planner/rollout/priority_trial.hpp"
+#include "planner/scenario/starts.hpp"
 
 namespace {
 
@@ -66,21 +67,23 @@ void declare(CLI::App& app, Flags& flags) {
   app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
 }
 
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+/// Processor time: what else the machine does is not measured.
+double now_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-hlc::scenario::Scenario scenario_of(const Flags& flags, std::size_t cars,
-                                    const std::string& strategy, std::size_t draw) {
+/// With the cars of the scenario's own draw.
+hlc::scenario::Scenario read(const Flags& flags, std::size_t cars) {
   hlc::scenario::ScenarioChoices choices = flags.scenario;
   if (cars != 0) choices.cars = cars;
-  choices.priorities = strategy;
-  if (draw != 0) choices.seed = draw;
   hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
   if (flags.max_levels) {
     scenario.profile.strategies.priorities.max_levels = *flags.max_levels;
   }
   return scenario;
+}
+
+/// The scenario with other cars drawn. @param draw  0: as it is
+hlc::scenario::Scenario drawn(const hlc::scenario::Scenario& scenario, std::size_t draw) {
+  return draw == 0 ? scenario : hlc::scenario::with_random_starts(scenario, draw);
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -158,7 +161,8 @@ constexpr const char* kHeading =
     "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 constexpr const char* kLegend =
-    "\nstep: planning and coordination of all cars, one after the other in one process. "
+    "\nstep: processor time of planning and coordination of all cars, one after the other in one "
+    "process. "
     "deadlocked: "
     "a car stood for three horizons, also one that has arrived.\ncost / optimal order: of the same "
     "step from the same situation, "
@@ -215,29 +219,31 @@ int run(Flags flags) {
       "cars,strategy,draw,steps,step_median_ms,step_p99_ms,levels_sum,levels_max,planned,"
       "vehicle_steps,driven_m,deadlock_step,compared_steps,cost_m2,optimal_order_m2,worse_steps,"
       "joint_excess\n";
-  const hlc::scenario::Scenario any = scenario_of(flags, flags.cars.front(), "constant", 0);
+  std::vector<hlc::scenario::Scenario> scenarios;  // all, before anything is driven
+  for (const std::size_t cars : flags.cars) scenarios.push_back(read(flags, cars));
+  const hlc::scenario::Scenario& any = scenarios.front();
   choose_strategies(flags, any);
   const std::vector<std::size_t> draws = draws_of(flags, any);
-  for (const std::size_t cars : flags.cars) {  // before anything is driven
-    for (const std::string& strategy : flags.strategies) {
-      static_cast<void>(scenario_of(flags, cars, strategy, draws.front()));
-    }
-  }
   const hlc::apps::ProgressLine progress(
       "run", flags.cars.size() * flags.strategies.size() * draws.size());
   std::string table = kHeading;
   std::size_t done = 0;
-  for (const std::size_t cars : flags.cars) {
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    std::vector<Cell> cells;
     for (const std::string& strategy : flags.strategies) {
-      Cell cell{.cars = cars, .strategy = strategy, .trials = {}};
-      for (const std::size_t draw : draws) {
-        cell.trials.push_back(
-            hlc::rollout::try_priorities(scenario_of(flags, cars, strategy, draw), true, now_s));
+      cells.push_back({.cars = flags.cars[i], .strategy = strategy, .trials = {}});
+    }
+    for (const std::size_t draw : draws) {
+      hlc::scenario::Scenario scenario = drawn(scenarios[i], draw);
+      for (Cell& cell : cells) {
+        scenario.profile.strategies.priorities.strategy =
+            hlc::coordination::priority_strategy(cell.strategy);
+        cell.trials.push_back(hlc::rollout::try_priorities(scenario, true, now_s));
         rows += csv_row(cell, draw, cell.trials.back());
         progress.show(++done);
       }
-      table += row_of(cell, any.subgraph->automaton().step_s);
     }
+    for (const Cell& cell : cells) table += row_of(cell, any.subgraph->automaton().step_s);
   }
   fmt::print("{}: {} steps of {:g} s, horizon {}, subgraph {} of {} trims, {} draws{}\n\n{}{}",
              any.name, any.steps, any.subgraph->automaton().step_s, any.horizon_steps,
