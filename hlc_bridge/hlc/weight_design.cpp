@@ -98,7 +98,8 @@ std::shared_ptr<const automaton::UniversalAutomaton> WeightDesign::automaton_for
   std::shared_ptr<const automaton::UniversalAutomaton> automaton = known(label);
   std::vector<maneuver_design::DesignTask> tasks = maneuver_design::design_tasks(wanted);
   std::erase_if(tasks, [&](const maneuver_design::DesignTask& task) {
-    return automaton->find(task.edge.from, task.edge.to, label) != nullptr;
+    const automaton::Maneuver* const held = automaton->find(task.edge.from, task.edge.to, label);
+    return held != nullptr && held->label == label;
   });
   if (!tasks.empty()) {
     std::vector<automaton::Maneuver> designed = maneuver_design::design(wanted, tasks, [&stop] {

@@ -31,8 +31,8 @@ const automaton::Maneuver* maneuver_during(const StepRecord& row, const StepReco
   // A vehicle that stands and whose plan is re-anchored may continue in another equilibrium.
   const bool is_self_loop = report.maneuver == automaton::kSelfLoopLabel;
   const TrimId to = is_self_loop ? report.planned_trim : next->record.report.planned_trim;
-  if (to == report.planned_trim && !is_self_loop) return nullptr;
-  return automaton.find(report.planned_trim, to, report.maneuver);
+  const automaton::Maneuver* const found = automaton.find(report.planned_trim, to, report.maneuver);
+  return found != nullptr && found->label == report.maneuver ? found : nullptr;
 }
 
 std::vector<const automaton::Maneuver*> planned_maneuvers(

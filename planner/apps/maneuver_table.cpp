@@ -18,7 +18,7 @@ std::optional<double> value_of(const std::string& criterion, const automaton::Ma
 std::string maneuver_table(const automaton::UniversalAutomaton& automaton) {
   std::string text = "from,to,criterion,intervals,J1,J2,dx,dy,dpsi,v_max,status\n";
   for (const automaton::Maneuver& m : automaton.maneuvers) {
-    if (m.from == m.to) continue;
+    if (m.is_self_loop()) continue;
     text += CsvLine(m.from.index + 1, m.to.index + 1, m.label, m.inputs.size(), value_of("J1", m),
                     value_of("J2", m), m.displacement.x_m, m.displacement.y_m,
                     m.displacement.heading_rad, automaton::top_speed_mps(m), "optimal")

@@ -8,11 +8,13 @@
 namespace hlc::automaton {
 
 const Maneuver* UniversalAutomaton::find(TrimId from, TrimId to, const std::string& label) const {
-  const std::string& wanted = from == to ? kSelfLoopLabel : label;
-  const auto found = std::find_if(maneuvers.begin(), maneuvers.end(), [&](const Maneuver& m) {
-    return m.from == from && m.to == to && m.label == wanted;
-  });
-  return found == maneuvers.end() ? nullptr : &*found;
+  const Maneuver* self_loop = nullptr;
+  for (const Maneuver& m : maneuvers) {
+    if (m.from != from || m.to != to) continue;
+    if (m.label == label) return &m;
+    if (m.is_self_loop()) self_loop = &m;
+  }
+  return self_loop;
 }
 
 double top_speed_mps(const Maneuver& maneuver) {
@@ -50,7 +52,7 @@ vehicle::State state_at(const Maneuver& maneuver, double time_s,
   HLC_DEMAND(!maneuver.inputs.empty() && maneuver.states.size() == maneuver.inputs.size() + 1,
              maneuver.inputs.size(), maneuver.states.size());
   const double time = std::clamp(time_s, 0.0, maneuver.duration_s);
-  if (maneuver.from == maneuver.to) {
+  if (maneuver.is_self_loop()) {
     vehicle::State state = maneuver.states.front();
     state.pose =
         vehicle::trim_motion(state.pose, state.speed_mps, state.steering_rad, time, vehicle);

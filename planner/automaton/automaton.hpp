@@ -26,8 +26,8 @@ struct Trim {
 /// Label of every trim's self-loop.
 inline const std::string kSelfLoopLabel = "trim";
 
-/// Motion of one step from one trim to another, or of a trim itself (`from == to`: its self-loop,
-/// the trim driven for one step, for every label).
+/// Motion of one step from one trim to another, or of a trim itself: its self-loop, the trim driven
+/// for one step, for every label, or a maneuver back to it that is optimal for a label (OwnSteps).
 ///
 /// All quantities are in the frame of the start pose (start at the origin, heading 0).
 struct Maneuver {
@@ -49,6 +49,8 @@ struct Maneuver {
   /// Of all criteria, whatever the label. For a trim's self-loop in J1, which depends on the
   /// position: the integral from the self-loop's start.
   std::vector<CriterionValue> criteria;
+
+  [[nodiscard]] bool is_self_loop() const { return label == kSelfLoopLabel; }
 };
 
 /// All trims and maneuvers of a vehicle, for one step length. Immutable once built.
@@ -65,7 +67,7 @@ struct UniversalAutomaton {
   std::vector<Maneuver> maneuvers;
 
   /// nullptr if the automaton does not hold that edge. A trim's self-loop is found under every
-  /// label.
+  /// label that the automaton holds no step from the trim to itself of.
   [[nodiscard]] const Maneuver* find(TrimId from, TrimId to, const std::string& label) const;
 };
 

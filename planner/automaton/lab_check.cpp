@@ -30,7 +30,7 @@ std::string validate_for_lab(const Subgraph& subgraph, const vehicle::LabLimits&
     for (const TrimId trim : subgraph.start_trims()) {
       for (const Edge& edge : subgraph.successors(trim)) {
         const Maneuver& m = *edge.maneuver;
-        if ((m.from == m.to) != self_loops) continue;
+        if (m.is_self_loop() != self_loops) continue;
         const std::vector<TimedPoint> points =
             points_of(m, limits.point_interval_s, automaton.vehicle);
         const auto found = vehicle::curve_fault(points, limits);

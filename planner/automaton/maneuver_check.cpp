@@ -85,7 +85,7 @@ vehicle::State integrated_again(const Maneuver& m, std::size_t k,
                                 const vehicle::VehicleParameters& vehicle) {
   constexpr int kFiner = 10;
   const double interval_s = m.duration_s / static_cast<double>(m.inputs.size());
-  if (m.from == m.to) {
+  if (m.is_self_loop()) {
     vehicle::State state = m.states[k];
     state.pose =
         vehicle::trim_motion(state.pose, state.speed_mps, state.steering_rad, interval_s, vehicle);
@@ -100,7 +100,7 @@ vehicle::State integrated_again(const Maneuver& m, std::size_t k,
 
 std::string validate_motion(const Maneuver& m, const vehicle::VehicleParameters& vehicle) {
   const double tolerance =
-      (m.from == m.to ? kSame : 1e-6) *
+      (m.is_self_loop() ? kSame : 1e-6) *
       std::max(1.0, top_speed_mps(m) * m.duration_s / static_cast<double>(m.inputs.size()));
   for (std::size_t k = 0; k < m.inputs.size(); ++k) {
     const vehicle::State reached = integrated_again(m, k, vehicle);

@@ -81,7 +81,7 @@ ManeuversFrom maneuvers_from(const UniversalAutomaton& automaton) {
 const Maneuver* find(const std::vector<const Maneuver*>& maneuvers, TrimId to,
                      const std::string& label) {
   for (const Maneuver* maneuver : maneuvers) {
-    if (maneuver->to == to && (maneuver->from == to || maneuver->label == label)) return maneuver;
+    if (maneuver->to == to && maneuver->label == label) return maneuver;
   }
   return nullptr;
 }
@@ -230,6 +230,20 @@ void Subgraph::switch_trims_on() {
                               [&trims](TrimId trim) { return trims[trim.index].is_equilibrium(); });
 }
 
+/// The labels of an edge between enabled trims. A trim's own step has those of the maneuvers back
+/// to it that the automaton holds and the speed limit admits, and is its self-loop without any.
+std::vector<std::string> Subgraph::held_labels(
+    const TrimPair& edge, const std::vector<const Maneuver*>& maneuvers) const {
+  std::vector<std::string> labels = labels_of(spec_, edge);
+  if (edge.from != edge.to || labels.empty()) return labels;
+  std::vector<std::string> optimised;
+  for (const std::string& label : spec_.labels) {
+    const Maneuver* maneuver = find(maneuvers, edge.to, label);
+    if (maneuver != nullptr && !is_too_fast(top_speed_mps(*maneuver))) optimised.push_back(label);
+  }
+  return optimised.empty() ? labels : optimised;
+}
+
 /// Fills successors_ of the enabled trims.
 void Subgraph::switch_edges_on() {
   const std::vector<TrimPair> pairs =
@@ -244,7 +258,7 @@ void Subgraph::switch_edges_on() {
   successors_.resize(automaton_->trims.size());
   for (const TrimPair& pair : pairs) {
     if (!is_enabled(pair.from) || !is_enabled(pair.to)) continue;
-    for (const std::string& label : labels_of(spec_, pair)) {
+    for (const std::string& label : held_labels(pair, held[pair.from.index])) {
       const Maneuver* maneuver = find(held[pair.from.index], pair.to, label);
       if (maneuver == nullptr) {
         fail(fmt::format("the automaton holds no edge {} with label '{}'", pair, label));

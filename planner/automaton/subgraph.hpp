@@ -61,7 +61,9 @@ struct SubgraphSpec {
 /// The labels of the edges from one trim to another, without disabled ones.
 [[nodiscard]] std::vector<std::string> labels_of(const SubgraphSpec& spec, const TrimPair& edge);
 
-/// One enabled edge: a maneuver, or a trim's self-loop.
+/// One enabled edge: a maneuver, or a trim's self-loop. The step from a trim to itself is its
+/// self-loop, unless the automaton holds such steps that are optimal for the subgraph's labels and
+/// within its speed limit: then it is these.
 struct Edge {
   TrimId to;
   const Maneuver* maneuver{};
@@ -136,6 +138,8 @@ class Subgraph {
   void check_spec() const;
   [[nodiscard]] bool is_too_fast(double speed_mps) const;
   void switch_trims_on();
+  [[nodiscard]] std::vector<std::string> held_labels(
+      const TrimPair& edge, const std::vector<const Maneuver*>& maneuvers) const;
   void switch_edges_on();
   bool shorten_distance(TrimId trim);
   void measure_distances();

@@ -231,7 +231,13 @@ void add_bound(const FrontPoint& point, const DesignTask& task,
   problem.cost_bounds.push_back({bounded, best + point.share * (worst - best)});
 }
 
-/// Pairs of different trims that are needed, sorted.
+/// Whether a trim's own step is designed. See OwnSteps.
+bool is_own_step_designed(TrimId trim, const AutomatonConfiguration& configuration) {
+  return configuration.own_steps == OwnSteps::kOptimised &&
+         !configuration.trims[trim.index].is_equilibrium();
+}
+
+/// Pairs of trims whose maneuvers are needed, sorted.
 std::set<TrimPair> needed_pairs(const AutomatonConfiguration& configuration) {
   std::set<TrimPair> needed;
   const auto add = [&](automaton::EdgeRule rule, const std::vector<TrimId>& trims,
@@ -239,7 +245,7 @@ std::set<TrimPair> needed_pairs(const AutomatonConfiguration& configuration) {
     for (const TrimPair& pair :
          automaton::rule_edges(rule, configuration.trims, trims, configuration.vehicle,
                                configuration.limits, configuration.step_s)) {
-      if (pair.from == pair.to) continue;
+      if (pair.from == pair.to && !is_own_step_designed(pair.from, configuration)) continue;
       if (subgraph != nullptr && automaton::labels_of(*subgraph, pair).empty()) continue;
       needed.insert(pair);
     }

@@ -91,7 +91,7 @@ std::string counts_line(const search::PlanCounts& counts) {
 std::string cost_text(double cost_m2) { return fmt::format("{:.6g}", cost_m2); }
 
 std::string name_of(const automaton::Maneuver& maneuver) {
-  return maneuver.from == maneuver.to ? fmt::format("trim {} kept", maneuver.to)
+  return maneuver.is_self_loop() ? fmt::format("trim {} kept", maneuver.to)
                                       : fmt::format("{} to trim {}", maneuver.label, maneuver.to);
 }
 

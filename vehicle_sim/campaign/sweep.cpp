@@ -9,6 +9,7 @@
 #include "planner/scenario/named_subgraph.hpp"
 #include "planner/scenario/starts.hpp"
 #include "planner/search/search_options.hpp"
+#include "vehicle_sim/campaign/exact_run.hpp"
 
 namespace hlc::campaign {
 namespace {
@@ -164,10 +165,15 @@ RunFigures Sweep::heading_of(std::size_t run) const {
 
 SweepResult Sweep::drive(std::size_t run) const {
   SweepResult result{.figures = heading_of(run), .trace_sha256 = {}};
-  const std::uint64_t first_step = first_step_of(plan_, combinations_[runs_.at(run).combination]);
+  const SweepCombination& combination = combinations_[runs_.at(run).combination];
+  const std::uint64_t first_step = first_step_of(plan_, combination);
+  const SweepValue* vehicle = value_of(plan_, combination, kVehicleSetting);
+  const bool is_exact = vehicle != nullptr && vehicle->text == kExactVehicle;
   try {
-    const CampaignResult driven =
-        result_of(drive_run(scenario_of(run), {}), std::nullopt, first_step);
+    scenario::Scenario scenario = scenario_of(run);
+    const DrivenRun done =
+        is_exact ? drive_exactly(std::move(scenario)) : drive_run(std::move(scenario), {});
+    const CampaignResult driven = result_of(done, std::nullopt, first_step);
     result.figures = with_figures(std::move(result.figures), driven);
     result.trace_sha256 = driven.summary.trace_sha256;
   } catch (const std::exception& error) {

@@ -82,6 +82,21 @@ const std::vector<SweepSetting>& sweep_settings() {
          automaton.limits.steering_rate_radps = value.number;
        },
        {}},
+      {"speed_max_mps",
+       true,
+       above(0.0, 100.0),
+       [](const Value& value, Automaton& automaton) {
+         automaton.limits.speed_max_mps = value.number;
+       },
+       {}},
+      {"own_steps",
+       false,
+       one_of({"trim", "optimised"}),
+       [](const Value& value, Automaton& automaton) {
+         automaton.own_steps = value.text == "optimised" ? maneuver_design::OwnSteps::kOptimised
+                                                         : maneuver_design::OwnSteps::kTrim;
+       },
+       {}},
       {"wheelbase_m", true, above(0.0, 100.0), set_wheelbase, {}},
       {"width_m",
        true,
@@ -105,6 +120,7 @@ const std::vector<SweepSetting>& sweep_settings() {
          automaton.edges = maneuver_design::EdgeChoice::kAll;
        },
        {}},
+      {kVehicleSetting, false, one_of({"identified", kExactVehicle}), {}, {}},
       {kLapSetting, false, one_of({"standing", "flying"}), {}, {}},
   };
   return all;

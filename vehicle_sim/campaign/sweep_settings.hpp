@@ -31,12 +31,16 @@ struct SweepValue {
 /// | `drivable`            | `lanes`, `everywhere`: no lane bounds                               |
 /// | `acceleration_mps2`   | > 0: the automaton's limit                                          |
 /// | `steering_rate_radps` | > 0: the automaton's limit                                          |
+/// | `speed_max_mps`       | > 0: the automaton's limit                                          |
+/// | `own_steps`           | `trim`, `optimised`: a moving trim's step back to itself            |
 /// | `wheelbase_m`         | > 0; the centre of gravity keeps its place between the axles        |
 /// | `width_m`             | > 0: the footprint's                                                |
 /// | `safety_margin_m`     | >= 0: vehicle to vehicle                                            |
 /// | `trims`               | which trims are on in every subgraph of the sweep, standstill       |
 /// |                       | always: lists of numbers from 1, or the word `subsets`: every       |
 /// |                       | choice of at least one moving trim                                  |
+/// | `vehicle`             | `identified`: the lab's; `exact`: always where the plan is, as in   |
+/// |                       | the paper's simulation (exact_run.hpp)                              |
 /// | `lap`                 | `standing`: a run is judged from its first step on; `flying`: from  |
 /// |                       | step 10 on (lap, errors and vertices)                               |
 struct SweepSetting {
@@ -54,6 +58,8 @@ struct SweepSetting {
 
 inline constexpr char kProfileSetting[] = "profile";
 inline constexpr char kTrimsSetting[] = "trims";
+inline constexpr char kVehicleSetting[] = "vehicle";
+inline constexpr char kExactVehicle[] = "exact";
 inline constexpr char kLapSetting[] = "lap";
 /// The first step that counts for a flying lap: by then every car is at speed.
 inline constexpr std::uint64_t kFlyingStep = 10;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -295,6 +296,69 @@ TEST(AutomatonBuilder, AllEdgesAreThePairsThatTheLimitsAllow) {
     EXPECT_LE(std::abs(configuration.trims[task.edge.from.index].steering_rad -
                        configuration.trims[task.edge.to.index].steering_rad),
               0.6 + 1e-9);
+  }
+}
+
+/// The paper's configuration with one label, and own steps that are optimal for it.
+AutomatonConfiguration with_optimised_own_steps(const std::string& label) {
+  AutomatonConfiguration configuration = automaton::shipped_configuration();
+  const auto subgraph = std::ranges::find_if(
+      configuration.subgraphs, [&](const auto& one) { return one.labels == std::vector{label}; });
+  configuration = needed_by(*subgraph, configuration);
+  configuration.own_steps = OwnSteps::kOptimised;
+  return configuration;
+}
+
+TEST(AutomatonBuilder, OwnStepsOfMovingTrimsCanBeOptimalLikeEveryOtherEdge) {
+  const AutomatonConfiguration configuration = with_optimised_own_steps("J1");
+  const auto automaton = build_shared_automaton(configuration);
+  const automaton::Subgraph subgraph(automaton, configuration.subgraphs.front());
+  for (std::size_t i = 0; i < automaton->trims.size(); ++i) {
+    SCOPED_TRACE(i + 1);
+    const TrimId trim{i};
+    const automaton::Maneuver* const held = automaton->find(trim, trim, automaton::kSelfLoopLabel);
+    ASSERT_NE(held, nullptr) << "the trim itself stays";
+    const automaton::Maneuver* const own = automaton->find(trim, trim, "J1");
+    ASSERT_NE(own, nullptr);
+    EXPECT_EQ(automaton::validate(*own, *automaton), "");
+    std::vector<const automaton::Maneuver*> in_subgraph;
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
+      if (edge.to == trim) in_subgraph.push_back(edge.maneuver);
+    }
+    EXPECT_EQ(in_subgraph, std::vector{own});
+    if (automaton->trims[i].is_equilibrium()) {
+      EXPECT_EQ(own, held) << "standstill stands";
+      continue;
+    }
+    EXPECT_EQ(own->label, "J1");
+    EXPECT_LT(value_of("J1", own->criteria), value_of("J1", held->criteria));
+    EXPECT_GT(automaton::top_speed_mps(*own), automaton->trims[i].speed_mps);
+    // Half-way it is ahead of the trim: between its ends it is free.
+    EXPECT_GT(automaton::state_at(*own, 0.1, automaton->vehicle).pose.x_m,
+              automaton::state_at(*held, 0.1, automaton->vehicle).pose.x_m);
+  }
+}
+
+TEST(AutomatonBuilder, UnderASpeedLimitAnOwnStepThatIsTooFastIsTheTrimItself) {
+  AutomatonConfiguration configuration = automaton::shipped_configuration();
+  configuration.subgraphs.front().labels = {"J1", "J2"};
+  configuration = needed_by(configuration.subgraphs.front(), configuration);
+  configuration.own_steps = OwnSteps::kOptimised;
+  automaton::UniversalAutomaton built = build_automaton(configuration);
+  // Only the fast ones are left.
+  std::erase_if(built.maneuvers,
+                [](const automaton::Maneuver& m) { return m.from == m.to && m.label == "J2"; });
+  automaton::SubgraphSpec spec = configuration.subgraphs.front();
+  spec.max_speed_mps = 0.82;
+  const automaton::Subgraph subgraph(
+      std::make_shared<const automaton::UniversalAutomaton>(std::move(built)), spec);
+  for (const TrimId trim : subgraph.trims()) {
+    std::vector<std::string> own_steps;
+    for (const automaton::Edge& edge : subgraph.successors(trim)) {
+      if (edge.to == trim) own_steps.push_back(edge.maneuver->label);
+      EXPECT_LE(automaton::top_speed_mps(*edge.maneuver), 0.82 + 1e-6);
+    }
+    EXPECT_EQ(own_steps, std::vector{automaton::kSelfLoopLabel}) << trim.index + 1;
   }
 }
 

@@ -345,10 +345,12 @@ TEST(AutomatonConfiguration, ReadsAllThatASubgraphCanSay) {
     disabled_edges: [{from: 2, to: 3}, {from: 3, to: 2, label: J3}]
     edges: [{from: 1, to: 2, labels: [J2]}]
 edges: all
+own_steps: optimised
 horizon_steps: 4
 )";
   const AutomatonConfiguration c = read(text);
   EXPECT_EQ(c.edges, EdgeChoice::kAll);
+  EXPECT_EQ(c.own_steps, OwnSteps::kOptimised);
   EXPECT_EQ(c.horizon_steps, 4U);
   ASSERT_EQ(c.subgraphs.size(), 2U);
   const automaton::SubgraphSpec& s = c.subgraphs[1];

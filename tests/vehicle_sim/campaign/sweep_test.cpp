@@ -77,7 +77,8 @@ TEST(Sweep, EverySettingReachesTheScenario) {
       "[everywhere], "
       "reference_rule: ['2022'], search: ['2022'], reference_speed_mps: [0.7], contouring_weight: "
       "[50], wheelbase_m: "
-      "[0.2], acceleration_mps2: [14], steering_rate_radps: [8], width_m: [0.1], "
+      "[0.2], acceleration_mps2: [14], steering_rate_radps: [8], speed_max_mps: [1.5], "
+      "own_steps: [optimised], width_m: [0.1], "
       "safety_margin_m: [0.02], trims: [[2, 7, 12]]}");
   ASSERT_EQ(sweep.runs().size(), 1U);
   const scenario::Scenario scenario = sweep.scenario_of(0);
@@ -93,12 +94,35 @@ TEST(Sweep, EverySettingReachesTheScenario) {
   const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
   EXPECT_EQ(automaton.limits.acceleration_mps2, 14.0);
   EXPECT_EQ(automaton.limits.steering_rate_radps, 8.0);
+  EXPECT_EQ(automaton.limits.speed_max_mps, 1.5);
+  EXPECT_EQ(automaton.find(TrimId{1}, TrimId{1}, "J2")->label, "J2");
   EXPECT_EQ(automaton.vehicle.wheelbase_m, 0.2);
   EXPECT_DOUBLE_EQ(automaton.vehicle.rear_axle_to_cg_m, 0.1);
   EXPECT_EQ(automaton.vehicle.footprint.width_m, 0.1);
   EXPECT_EQ(automaton.vehicle.safety_margin_m, 0.02);
   EXPECT_EQ(scenario.subgraph->spec().trims,
             (std::vector<TrimId>{TrimId{0}, TrimId{1}, TrimId{6}, TrimId{11}}));
+}
+
+TEST(Sweep, ExactVehiclesAreWhereTheirPlansAre) {
+  const Sweep sweep = built_sweep(
+      "subgraphs: [A, B]\nstarts: 2\nsteps: 60\nsettings: {profile: ['2022'], vehicle: "
+      "[identified, exact]}");
+  ASSERT_EQ(sweep.runs().size(), 8U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    SCOPED_TRACE(i);
+    const RunFigures identified = sweep.drive(i).figures;
+    const RunFigures exact = sweep.drive(i + 4).figures;
+    EXPECT_EQ(exact.failure, "");
+    EXPECT_EQ(exact.subgraph, identified.subgraph);
+    EXPECT_NEAR(exact.deviation_max_mm, 0.0, 1e-6);
+    EXPECT_NEAR(exact.driven_error_mean_mm.value(), exact.error_mean_mm.value(), 1e-6);
+    EXPECT_GT(identified.deviation_max_mm, 0.1);
+    if (exact.subgraph == "B") {  // the car follows its plans: none is made again from its pose
+      EXPECT_DOUBLE_EQ(exact.error_mean_mm.value(), identified.error_mean_mm.value());
+      EXPECT_EQ(exact.generated_max, identified.generated_max);
+    }
+  }
 }
 
 TEST(Sweep, AutomataAreDesignedOncePerDifferentOne) {
