@@ -15,9 +15,9 @@ OUTCOME_NAMES = {LAP: "Starts with a lap", NO_LAP: "Starts without a lap, no car
 PAPER_NAMES = {paper.SIMULATION: "the paper's simulation", paper.LAB: "the paper's lab"}
 WORDS = (
     "Means over the starts with a lap, in brackets the smallest and the largest: starts without a lap, with a stuck "
-    "car and failed ones are counted in rows of their own and are part of no mean. Errors and lap are those of the vehicle "
-    "of highest priority, the lap that of its planned positions. Computation times are processor time of the planning "
-    "thread, one car's; wall times are of runs driven beside each other (`--jobs`).\n\n"
+    "car and failed ones are counted in rows of their own and are part of no mean. Errors and lap are those of the "
+    "vehicle of highest priority, the lap that of its planned positions. Computation times are processor time of the "
+    "planning thread, one car's; wall times are of runs driven beside each other (`--jobs`).\n\n"
 )
 
 
