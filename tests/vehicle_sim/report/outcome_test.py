@@ -63,6 +63,22 @@ class Outcome(unittest.TestCase):
                     before, after = (data(sweep(settings, runs)) for runs in (good, good + bad))
                     pd.testing.assert_frame_equal(without_counts(before), without_counts(after), check_exact=True)
 
+    def test_a_lap_of_one_run_of_a_pair_alone_is_no_difference(self) -> None:
+        settings = {"search": ["a", "b"]}
+        for seed, generator in seeds(10):
+            pairs = [[random_run(generator, start, subgraph=subgraph, **{"set.search": value})
+                      for value, subgraph in (("a", "A"), ("b", "B"), ("a", "B"), ("b", "A"))] for start in range(14)]
+            good = [one for start in pairs[:7] for one in start]
+            # The first two have a partner in both comparisons, the last two are these partners.
+            for start in pairs[7:]:
+                bad = (0, 1) if generator.uniform() < 0.5 else (2, 3)
+                for i in bad:
+                    start[i] |= NO_MEANS[generator.integers(len(NO_MEANS))]
+            with self.subTest(seed=seed):
+                for data in (paired_data, accuracy_data):
+                    before, after = (data(sweep(settings, runs)) for runs in (good, [*good, *sum(pairs[7:], [])]))
+                    pd.testing.assert_frame_equal(without_counts(before), without_counts(after), check_exact=True)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -48,7 +48,9 @@ class PairedComparison(unittest.TestCase):
             rows = made_runs(generator)
             data = paired_data(sweep(SETTINGS, rows, tables=[("margin", "search")]))
             errors = data[(data.setting == "search") & (data.quantity == "error_mean_mm")]
-            self.assertGreater(len(errors), 4)
+            expected = {(within, value, subgraph) for within in ((), ("0",), ("1",)) for value in "bc" for subgraph in "AB"
+                        if self.by_hand(rows, value, subgraph, next(iter(within), None))[0]}
+            self.assertEqual(set(zip(errors.within, errors.value, errors.subgraph)), expected)
             for one in errors.itertuples():
                 pairs, differences = self.by_hand(rows, one.value, one.subgraph, next(iter(one.within), None))
                 with self.subTest(seed=seed, value=one.value, within=one.within, subgraph=one.subgraph):

@@ -75,6 +75,12 @@ class Distance(unittest.TestCase):
         for change in ({"lap_s": np.nan}, {"stuck_vehicles": 1}, {"failure": "vehicles touched"}):
             self.assertTrue(np.isnan(self.distance(run(**PAPERS_D), run(1, **PAPERS_D | change))))
 
+    def test_is_unknown_if_one_subgraph_of_several_has_no_lap(self) -> None:
+        runs = [run(**PAPERS_D), run(**PAPERS_D | {"subgraph": "C", "lap_s": np.nan})]
+        self.assertTrue(np.isnan(self.distance(*runs)))
+        cells = cells_of(frame(runs).assign(combination=0), ["combination"])
+        self.assertEqual(list(cells.ours.isna()), [True] * 4 + [False] * 4)
+
     def test_three_cars_have_the_vertices_of_a_step_summed(self) -> None:
         values = {"scenario": SIMULATION, "subgraph": "D", "error_mean_mm": 19.4, "error_std_mm": 17.6, "lap_s": 16.2,
                   "generated_max": 1.0, "generated_sum_max": 879.0}

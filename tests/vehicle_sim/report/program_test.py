@@ -67,6 +67,7 @@ class Program(unittest.TestCase):
                       text)
         settings = pd.read_csv(self.folder / "report" / "settings.csv", dtype=str, keep_default_na=False)
         self.assertEqual(list(settings["values"].unique()), ["", "2022", "best_first"])
+        self.assertEqual(list(settings["settings"].unique()), ["all", "search"])
 
     def test_the_same_rows_give_the_same_files(self) -> None:
         write_sweep(self.folder)
@@ -122,8 +123,9 @@ class Program(unittest.TestCase):
     def test_refuses_files_without_columns_values_or_rows(self) -> None:
         write_campaign(self.folder)
         text = (self.folder / "runs.csv").read_text()
+        names = len(text.splitlines()[0].split(","))
         for wrong, reason in ((text.replace("failure", "fail"), "runs.csv:1: no column failure"),
-                              (text.replace("\n0,", "\n0,0,"), "runs.csv:2: "),
+                              (text.replace("\n0,", "\n0,0,"), f":2: {names + 1} values, must be {names} as in line 1"),
                               (text.splitlines()[0] + "\n", "runs.csv: no rows"),
                               (text.replace("lap_s", "effort_per_m"), "runs.csv:1: a name twice"),
                               ("", "runs.csv:1: no column run"), (text + '"a', "RFC 4180")):
