@@ -9,7 +9,7 @@ all groups of the sweep; interval, test and correction are those of paired_compa
 import pandas as pd
 
 from report.groupings import Axes, columns_of, groupings_of, groups_of, settings_text
-from report.inference import TEST_WORDS, Interval, p_text
+from report.inference import TEST_WORDS, Interval, p_text, power_text
 from report.markdown import table
 from report.paired_comparison import difference, with_families
 from report.results import LAP, Sweep
@@ -54,10 +54,11 @@ def accuracy_markdown(data: pd.DataFrame) -> str:
         return ""
     families = data.drop_duplicates(["first", "second"])
     names = [f"{one.second} against {one.first}" for one in families.itertuples()]
-    counts = "; ".join(f"{name} {count}" for name, count in zip(names, families.family))
+    sizes = dict(zip(names, families.family))
+    counts = "; ".join(f"{name} {count}" for name, count in sizes.items())
     rows = [[settings_text(axes), ", ".join(values), *(_cell(one) for one in group.itertuples())]
             for (axes, values), group in data.groupby(["settings", "values"], sort=False)]
-    return f"{WORDS}{counts}.\n\n" + table(["setting", "value", *names], rows)
+    return f"{WORDS}{counts}.\n\n" + power_text(data.starts.max(), sizes) + table(["setting", "value", *names], rows)
 
 
 def _cell(row: tuple) -> str:

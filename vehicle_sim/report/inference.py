@@ -101,3 +101,15 @@ def p_text(corrected: float, interval: Interval) -> str:
     if corrected > LEVEL:
         return text
     return text + (" * (†)" if abs(interval.mean) <= interval.half_width else " *")
+
+
+def power_text(starts: int, families: dict[str, int]) -> str:
+    """Names the families in which no claim can hold: with n starts that all agree p is 2 / 2^n, and the smallest p of m
+    is corrected by the factor m. @param families: numbers of tests by name"""
+    least = 2.0 ** (1 - starts)
+    weak = {name: count for name, count in families.items() if count * least > LEVEL}
+    if not weak:
+        return ""
+    needed = int(np.ceil(1 + np.log2(max(weak.values()) / LEVEL)))
+    return (f"**With {starts} starts no p is below {least:.2g}, so that after the correction no claim about "
+            f"{', '.join(weak)} can hold at 5 %**; all can with {needed} starts.\n\n")

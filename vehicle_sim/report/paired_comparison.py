@@ -14,7 +14,8 @@ import pandas as pd
 
 from report.columns import SETTING
 from report.groupings import Axes, columns_of, groupings_of, groups_of
-from report.inference import LEVEL, TEST_WORDS, Interval, holm, interval_of_mean, means_of_starts, p_text, signed_rank_p
+from report.inference import (LEVEL, TEST_WORDS, Interval, holm, interval_of_mean, means_of_starts, p_text,
+                              power_text, signed_rank_p)
 from report.markdown import table
 from report.paper import Quantity
 from report.paper_distance import distances_of
@@ -100,6 +101,7 @@ def paired_markdown(data: pd.DataFrame) -> str:
     families = data.drop_duplicates(["setting", "quantity"])
     counts = families[families.quantity != FACTOR].groupby("setting", sort=False).family.max()
     text = WORDS + "; ".join(f"{name} {count} each" for name, count in counts.items()) + ".\n\n"
+    text += power_text(data.starts.max(), counts.to_dict())
     keys = ["setting", "with", "within", "value", "scenario", "subgraph"]
     rows = []
     for _, group in data[data.quantity != FACTOR].groupby(keys, sort=False):

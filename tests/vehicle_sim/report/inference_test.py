@@ -9,7 +9,7 @@ from made_up import seeds
 from scipy import stats
 
 from report.inference import (EXACT_PAIRS, Interval, holm, interval_of_mean, interval_over_starts, median_interval,
-                              p_text, signed_rank_p)
+                              p_text, power_text, signed_rank_p)
 
 
 class Holm(unittest.TestCase):
@@ -72,6 +72,20 @@ class SignedRank(unittest.TestCase):
         self.assertTrue(np.isnan(signed_rank_p([])))
         self.assertEqual(signed_rank_p([0.0, 0.0]), 1.0)
         self.assertEqual(signed_rank_p([1.0]), 1.0)
+
+    def test_too_few_starts_for_a_family_are_named(self) -> None:
+        for seed, generator in seeds(30):
+            starts, count = int(generator.integers(1, 14)), int(generator.integers(1, 40))
+            best = holm(pd.Series([signed_rank_p(np.arange(1.0, starts + 1))] + [1.0] * (count - 1))).min()
+            text = power_text(starts, {"width": (count + 1) // 2, "search": count, "lap": 0})
+            with self.subTest(seed=seed, starts=starts, count=count):
+                self.assertEqual(text == "", best <= 0.05)
+                if text:
+                    needed = int(text.split("all can with ")[1].split()[0])
+                    self.assertLessEqual(count * signed_rank_p(np.ones(needed)), 0.05)
+                    self.assertGreater(count * signed_rank_p(np.ones(needed - 1)), 0.05)
+                    self.assertIn(f"With {starts} starts no p is below", text)
+                    self.assertNotIn("lap", text.split("claim about")[1])
 
 
 class Intervals(unittest.TestCase):

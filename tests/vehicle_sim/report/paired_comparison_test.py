@@ -48,7 +48,8 @@ class PairedComparison(unittest.TestCase):
             rows = made_runs(generator)
             data = paired_data(sweep(SETTINGS, rows, tables=[("margin", "search")]))
             errors = data[(data.setting == "search") & (data.quantity == "error_mean_mm")]
-            expected = {(within, value, subgraph) for within in ((), ("0",), ("1",)) for value in "bc" for subgraph in "AB"
+            groups = itertools.product(((), ("0",), ("1",)), "bc", "AB")
+            expected = {(within, value, subgraph) for within, value, subgraph in groups
                         if self.by_hand(rows, value, subgraph, next(iter(within), None))[0]}
             self.assertEqual(set(zip(errors.within, errors.value, errors.subgraph)), expected)
             for one in errors.itertuples():
@@ -77,6 +78,13 @@ class PairedComparison(unittest.TestCase):
                       "0 ± 0; p 1.000 |", text)
         self.assertIn("quantity of this sweep: search 1 each.", text)
         self.assertNotIn("factor", text)
+        self.assertNotIn("no claim", text)
+
+    def test_names_the_settings_for_which_the_starts_are_too_few(self) -> None:
+        rows = [run(start, **{"set.search": value}) for value in "ab" for start in range(4)]
+        text = paired_markdown(paired_data(sweep({"search": ["a", "b"]}, rows)))
+        self.assertIn("**With 4 starts no p is below 0.12, so that after the correction no claim about search can hold",
+                      text)
 
     def test_the_distance_to_the_paper_leaves_out_pairs_without_a_lap(self) -> None:
         rows = [run(start, scenario=LAB, subgraph="D", error_mean_mm=17.0, error_std_mm=16.1, lap_s=16.0,
@@ -104,7 +112,8 @@ class AccuracyComparison(unittest.TestCase):
         rows[-1]["lap_s"] = np.nan
         data = accuracy_data(sweep({"search": ["a", "b"]}, rows, tables=[("search",)]))
         text = accuracy_markdown(data)
-        self.assertIn("in this sweep: B against A 3.", text)
+        self.assertIn("in this sweep: B against A 3.\n\n**With 6 starts no p is below 0.031, so that after the "
+                      "correction no claim about B against A can hold at 5 %**; all can with 7 starts.", text)
         self.assertIn("| all |  | 1 of 1, 0.62; 0.83 ± 3.35 mm; p 0.625 |", text)
         self.assertIn("| search | a | 1 of 1, 0.62; -7.50 ± 1.96 mm; p 0.094 |", text)
         self.assertIn("| search | b | 0 of 0; 12.00 ± 1.96 mm; p 0.125 |", text)
