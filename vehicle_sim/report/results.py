@@ -102,6 +102,8 @@ def _read_runs(rows: Rows, measured: tuple[str, ...]) -> pd.DataFrame:
     runs |= {name: rows.numbers(name, needed=counts) for name in columns.REQUIRED + measured}
     if len(rows) == 0:
         rows.fail("no rows", "with a row per run")
+    if runs["run"].duplicated().any():
+        rows.fail(f"run {runs['run'][runs['run'].duplicated()].iloc[0]} twice", "with a row per run")
     return with_outcome(pd.DataFrame(runs))
 
 
@@ -121,6 +123,8 @@ def _read_sweep(folder: Path, origin: dict[str, str], plan: dict[str, Any]) -> S
     tables = [tuple(_list({"tables": one}, "tables", str, place)) for one in _list(plan, "tables", list, place)]
     for name in (name for table in tables for name in table if name not in settings):
         raise InputError(f'{place}: tables = "{name}", must be one of {", ".join(settings)}')
+    for value in (one for one in settings.get("trims", []) if not one.replace(" ", "").isdecimal()):
+        raise InputError(f'{place}: settings: trims = "{value}", must be numbers separated by blanks')
     trims = _field(plan, "trims", dict, place)
     offered = _field(trims, "offered", dict, f"{place}: trims")
     sweep = Sweep(

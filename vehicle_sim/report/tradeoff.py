@@ -107,13 +107,13 @@ def tradeoff_markdown(runs: pd.DataFrame) -> str:
     references = "; ".join(f"{NAMES[key]} {one.value:g} ({one.why})" for key, one in REFERENCE.items())
     text = (
         "# Fixed subgraphs and policies\n\nMedians over the starts with a lap and without a stuck car, in brackets "
-        "their 95 % intervals from order statistics (exact for any distribution; fewer than six starts have none). Lap "
-        "(planned positions) and error (driven positions to the lane's centre, mean) are those of the vehicle of "
-        "highest priority, all else is of all vehicles: effort J2 and comfort of the driven maneuvers per driven "
-        "metre, the largest number of generated vertices of a car in a step, processor time per plan, the share of the "
-        "time in speed zones above their limit, in driven speed without tolerance, and switches of the subgraph. "
-        "Hypervolumes "
-        "with a policy are relative to that of the fixed subgraphs: 1 is no gain. Their reference points are fixed: "
+        "their 95 % intervals from order statistics (at least 95 % for any distribution; fewer than six starts have "
+        "none). Lap (planned positions) and error (driven positions to the lane's centre, mean) are those of the "
+        "vehicle of highest priority, all else is of all vehicles: effort J2 and comfort of the driven maneuvers per "
+        "driven metre, the largest number of generated vertices of a car in a step, processor time per plan, the share "
+        "of the time in speed zones above their limit, in driven speed without tolerance, and switches of the "
+        "subgraph. Hypervolumes with a policy are relative to that of the fixed subgraphs: 1 is no gain. Their "
+        "reference points are fixed: "
         f"{references}. A row beyond a reference point has volume 0 there and is marked (>).\n\n")
     for scenario, profile, columns in groups_of(runs):
         rows = [row_of(column) for column in columns]

@@ -128,6 +128,7 @@ class Program(unittest.TestCase):
                               (text.replace("\n0,", "\n0,0,"), f":2: {names + 1} values, must be {names} as in line 1"),
                               (text.splitlines()[0] + "\n", "runs.csv: no rows"),
                               (text.replace("lap_s", "effort_per_m"), "runs.csv:1: a name twice"),
+                              (text + text.splitlines()[1] + "\n", "runs.csv: run 0 twice"),
                               ("", "runs.csv:1: no column run"), (text + '"a', "RFC 4180")):
             (self.folder / "report.md").unlink(missing_ok=True)
             (self.folder / "runs.csv").write_text(wrong)
@@ -152,6 +153,8 @@ class Program(unittest.TestCase):
         self.refused("runs.csv:1: no column set.lap")
         write_sweep(self.folder, tables=[["trims"]])
         self.refused('tables = "trims", must be one of search')
+        write_sweep(self.folder, settings=[{"name": "trims", "values": ["1 2", "1 two"]}], tables=[])
+        self.refused('settings: trims = "1 two", must be numbers separated by blanks')
         write_sweep(self.folder, starts=True)
         self.refused("sweep: starts = true, must be an integer")
         write_sweep(self.folder, trims={"offered": {"A": ["1"]}, "moving": []})
