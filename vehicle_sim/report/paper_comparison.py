@@ -19,14 +19,17 @@ MOST_SHOWN = 10
 
 
 def judged_combinations(sweep: Sweep) -> pd.DataFrame | None:
-    """By combination, the nearest first and those left out last: settings, `choosing` and `held_out` (D; NaN without
-    such starts), `may_be_as_near` to the first. None if the paper has no cell for the runs."""
+    """By combination, the nearest first and those left out last: settings, `starts_without_lap`, `choosing` and
+    `held_out` (D; NaN without such starts), `may_be_as_near` to the first. None if the paper has no cell for the runs.
+    """
     choosing = choosing_runs(sweep)
     everything = distances_of(sweep.runs, ["combination"])
     if everything.empty:
         return None
+    by_start = np.sqrt(distances_of(sweep.runs, ["combination", "start"])).unstack("start")
     settings = [SETTING + name for name in sweep.settings]
     judged = sweep.runs.groupby("combination")[settings].first()
+    judged["starts_without_lap"] = by_start.isna().sum(axis=1)
     judged["choosing"] = distances_of(sweep.runs[choosing], ["combination"]).where(everything.notna())
     judged["held_out"] = np.nan
     judged["may_be_as_near"] = everything.notna()
@@ -34,8 +37,8 @@ def judged_combinations(sweep: Sweep) -> pd.DataFrame | None:
     if choosing.all() or judged.choosing.isna().all():
         return judged
     judged["held_out"] = distances_of(sweep.runs[~choosing], ["combination"]).where(everything.notna())
-    by_start = np.sqrt(distances_of(sweep.runs[~choosing], ["combination", "start"])).unstack("start")
-    differences = by_start - by_start.loc[judged.index[0]]
+    held_out = by_start.loc[:, sorted(sweep.runs.start[~choosing].unique())]
+    differences = held_out - held_out.loc[judged.index[0]]
     judged["may_be_as_near"] = [not np.isnan(one.choosing) and not _is_above_zero(differences.loc[combination])
                                 for combination, one in judged.iterrows()]
     return judged
@@ -57,12 +60,13 @@ def comparison_markdown(sweep: Sweep) -> str:
     if judged is None:
         return ""
     ranked = judged.dropna(subset="choosing")
-    count = len(judged) - len(ranked)
+    left_out = judged[judged.choosing.isna()].starts_without_lap
+    each = f" (each from {left_out.min()} to {left_out.max()} of {sweep.starts} starts)" if len(left_out) else ""
     text = (
-        f"## Next to the paper's Table 2\n\nFactor = exp(sqrt(D)), D = mean over the cells of (ln ours / paper)², each "
-        f"at most (ln 10)²; ours is the mean over the starts. By so much a typical cell is off.\n\n**{count} of "
-        f"{len(judged)} combinations are left out**: from some start a run failed, a car was stuck, or there was no "
-        f"lap, so that they have no mean over all starts.\n\n")
+        "## Next to the paper's Table 2\n\nFactor = exp(sqrt(D)), D = mean over the cells of (ln ours / paper)², each "
+        f"at most (ln 10)²; ours is the mean over the starts. By so much a typical cell is off.\n\n**{len(left_out)} of "
+        f"{len(judged)} combinations are left out**{each}: from some start a run failed, a car was stuck, or there "
+        f"was no lap, so that they have no mean over all starts.\n\n")
     if ranked.empty:
         return text
     first_held_out = (sweep.starts + 1) // 2

@@ -110,7 +110,8 @@ class Comparison(unittest.TestCase):
         self.assertEqual(list(judged.choosing.isna()), [False, False, True])
         self.assertEqual(list(judged.may_be_as_near), [True, False, False])
         text = comparison_markdown(made)
-        self.assertIn("**1 of 3 combinations are left out**", text)
+        self.assertIn("**1 of 3 combinations are left out** (each from 1 to 1 of 8 starts): ", text)
+        self.assertEqual(list(judged.starts_without_lap), [0, 0, 1])
         self.assertIn("The nearest of 2 combinations is chosen by the starts 0 to 3; its distance is measured on the "
                       "starts 4 to 7", text)
         self.assertIn("| search | never | 1 | 1 | - | - | - | - |", text)
