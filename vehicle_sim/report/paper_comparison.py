@@ -64,8 +64,8 @@ def comparison_markdown(sweep: Sweep) -> str:
     each = f" (each from {left_out.min()} to {left_out.max()} of {sweep.starts} starts)" if len(left_out) else ""
     text = (
         "## Next to the paper's Table 2\n\nFactor = exp(sqrt(D)), D = mean over the cells of (ln ours / paper)², each "
-        f"at most (ln 10)²; ours is the mean over the starts. By so much a typical cell is off.\n\n**{len(left_out)} of "
-        f"{len(judged)} combinations are left out**{each}: from some start a run failed, a car was stuck, or there "
+        f"at most (ln 10)²; ours is the mean over the starts. By so much a typical cell is off.\n\n**{len(left_out)} "
+        f"of {len(judged)} combinations are left out**{each}: from some start a run failed, a car was stuck, or there "
         f"was no lap, so that they have no mean over all starts.\n\n")
     if ranked.empty:
         return text
