@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Tables, statistics and figures of a folder that evaluate wrote.
+set -uo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+
+usage() {
+  cat <<'TEXT'
+usage: report.sh OUT
+  OUT  a folder of evaluate, with campaign.json, runs.csv and, of a campaign, cars.csv
+Writes OUT/report.md, the page, and OUT/report/ with the data of every table and the figures.
+Python's packages are installed once, into build/report_environment.
+Exit codes: 0 done, 2 invalid input, 3 not writable, or Python's packages cannot be installed
+TEXT
+}
+
+fail() { echo "report.sh: $1" >&2; exit 2; }
+case "${1-}" in
+  -h | --help) usage; exit 0 ;;
+  --version) exec "$root/launch_scripts/version.sh" report.sh ;;
+  -*) fail "unknown flag $1, must be --help or a folder" ;;
+esac
+(($# == 1)) || fail "$# folders, must be one, see --help"
+
+environment=$root/build/report_environment
+"$root/launch_scripts/python_environment.sh" "$environment" "$root/vehicle_sim/report/requirements.txt" || exit $?
+PYTHONPATH=$root/vehicle_sim PYTHONDONTWRITEBYTECODE=1 exec "$environment/bin/python" -m report "$1"
