@@ -31,11 +31,15 @@ std::vector<Point> contouring(const road::ReferencePath& path, std::span<const d
 }  // namespace
 
 road::Reference reference_alone(const coordination::Traffic& own, const RouteTracker& tracker,
-                                double s_m, const automaton::UniversalAutomaton& automaton,
+                                double s_m, const automaton::Subgraph& subgraph,
                                 const ControllerOptions& options, double end_s_m) {
+  const automaton::UniversalAutomaton& automaton = subgraph.automaton();
+  const double speed_mps =
+      std::min(options.reference_speed_mps,
+               subgraph.spec().max_speed_mps.value_or(options.reference_speed_mps));
   road::Reference reference = road::reference_points(
-      tracker.route().path, s_m, automaton.trims[own.next_trim.index].speed_mps,
-      options.reference_speed_mps, options.horizon_steps, automaton.step_s, options.reference_rule);
+      tracker.route().path, s_m, automaton.trims[own.next_trim.index].speed_mps, speed_mps,
+      options.horizon_steps, automaton.step_s, options.reference_rule);
   return road::reference_on(tracker.route().driving_line, tracker.route().path,
                             std::move(reference), end_s_m);
 }
@@ -55,11 +59,11 @@ std::vector<ConvexPolygon> areas_on(const road::Reference& reference,
 
 search::HorizonProblem problem_alone(const coordination::Traffic& own, const RouteTracker& tracker,
                                      const road::Corridor& corridor, double reach_m,
-                                     const automaton::UniversalAutomaton& automaton,
+                                     const automaton::Subgraph& subgraph,
                                      const ControllerOptions& options, double end_s_m) {
   const double s_m = tracker.s_m().value();
   search::HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
-  road::Reference reference = reference_alone(own, tracker, s_m, automaton, options, end_s_m);
+  road::Reference reference = reference_alone(own, tracker, s_m, subgraph, options, end_s_m);
   problem.reference_m = std::move(reference.points_m);
   problem.reference_speed_mps = std::move(reference.speeds_mps);
   if (options.contouring_weight > 0.0) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "planner/automaton/automaton.hpp"
+#include "planner/automaton/subgraph.hpp"
 #include "planner/controller/controller_options.hpp"
 #include "planner/controller/route_tracker.hpp"
 #include "planner/coordination/messages.hpp"
@@ -11,10 +11,12 @@
 namespace hlc::controller {
 
 /// The reference points that the vehicle has when its plan begins at the pose announced in its
-/// traffic. @param s_m  its place on its route then. Others as below
+/// traffic: by the reference speed of the options, or the speed limit of the subgraph if that is
+/// lower, because a reference that the subgraph cannot follow pulls the plans across the bends.
+/// @param s_m  its place on its route then. Others as below
 [[nodiscard]] road::Reference reference_alone(const coordination::Traffic& own,
                                               const RouteTracker& tracker, double s_m,
-                                              const automaton::UniversalAutomaton& automaton,
+                                              const automaton::Subgraph& subgraph,
                                               const ControllerOptions& options, double end_s_m);
 
 /// The vehicle on reference points, in the direction of its route; safety margin included.
@@ -30,7 +32,7 @@ namespace hlc::controller {
 [[nodiscard]] search::HorizonProblem problem_alone(const coordination::Traffic& own,
                                                    const RouteTracker& tracker,
                                                    const road::Corridor& corridor, double reach_m,
-                                                   const automaton::UniversalAutomaton& automaton,
+                                                   const automaton::Subgraph& subgraph,
                                                    const ControllerOptions& options,
                                                    double end_s_m);
 

@@ -21,6 +21,7 @@ SHARE = "share."  # then the name of a subgraph
 SETTING = "set."  # then the name of a setting of a sweep
 
 CAR_NUMBERS = (
-    "steps", "lap_s", "error_mean_mm", "error_std_mm", "driven_error_mean_mm", "deviation_max_mm", "generated_mean",
-    "generated_max", "expanded_max", "planning_mean_ms", "planning_max_ms", "fallback_steps", "longest_wait_s",
+    "lap_s", "error_mean_mm", "error_std_mm", "driven_error_mean_mm", "driven_error_std_mm", "tracking_error_mean_mm",
+    "generated_mean", "generated_max", "expanded_mean", "expanded_max", "planning_mean_ms", "planning_max_ms",
+    "fallback_steps", "deadline_misses", "longest_wait_s",
 )
