@@ -17,7 +17,7 @@ namespace hlc::apps {
 ///     results.json         {"campaign": ..., "runs": [...]}, in the order of the campaign
 ///     table.md, table.csv
 ///     tradeoff.md, tradeoff.csv, tradeoff_fronts.csv   of a campaign with policies (tradeoff.hpp)
-///     figures/             what evaluation_figures.hpp draws
+///     series/              what evaluation_series.hpp writes
 ///
 /// A run's record has the keys of summary.json and "run" (its number), "start", "policy" (`none`
 /// for a fixed subgraph), "failure" (null, or why the run does not count) and "figures"
