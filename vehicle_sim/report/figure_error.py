@@ -59,6 +59,7 @@ def draw(group: Group) -> style.Drawing | None:
     until = max(lines[run]["arc_length_m"].max() for run in runs)
     figure = style.new_figure(1.1 + len(runs) * min(1.15, 8.0 / len(runs)))
     panels = figure.subplots(len(runs), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    panels[0].set_xlim(0.0, 1.02 * until)
     tables, bands = [], 0
     for axes, (rank, run) in zip(panels, enumerate(runs), strict=True):
         colour, line, band = style.stroke(rank).colour, lines[run], spread(group, run)
@@ -72,7 +73,6 @@ def draw(group: Group) -> style.Drawing | None:
         mark_gridlock(axes, group, run, line, colour)
         tables += [line.assign(planned_on=run.label, what="own start"),
                    band.assign(planned_on=run.label, what="other starts")]
-    panels[0].set_xlim(0.0, 1.02 * until)
     panels[0].set_ylim(bottom=0.0)
     centre = "lane's centre" if group.place["lanelets"] else "reference path"
     panels[-1].set_xlabel(f"arc length along the {centre}, from the start [m]")

@@ -63,11 +63,14 @@ def draw(group: Group) -> style.Drawing | None:
     if not runs:
         return None
     looks = {run.number: style.stroke(rank) for rank, run in enumerate(runs)}
-    figure = style.new_figure(4.3, "compressed")
+    figure = style.new_figure(4.15, "compressed")
     whole, zoom = figure.subplots(1, 2)
     path = map_axes.path_points(first)
     drives = [group.drive_of(run, first["id"])[["x_m", "y_m"]].to_numpy() for run in runs]
     place, largest = where_they_differ(lateral.Path(path), drives)
+    map_axes.finish(whole, map_axes.extent_of(group.place))
+    map_axes.finish(zoom, (place[0] - HALF_ZOOM_M, place[0] + HALF_ZOOM_M,
+                           place[1] - HALF_ZOOM_M, place[1] + HALF_ZOOM_M))
     for axes in (whole, zoom):
         map_axes.draw_lanes(axes, group.place)
         axes.plot(path[:, 0], path[:, 1], color="#000000", linewidth=0.6, zorder=2.5)
@@ -78,9 +81,6 @@ def draw(group: Group) -> style.Drawing | None:
                 map_axes.mark_gridlock(axes, end["x_m"], end["y_m"], looks[run.number].colour)
     whole.add_patch(Rectangle(place - HALF_ZOOM_M, 2 * HALF_ZOOM_M, 2 * HALF_ZOOM_M, fill=False, edgecolor=style.MARK,
                               linewidth=0.8, zorder=6))
-    map_axes.finish(whole, map_axes.extent_of(group.place))
-    map_axes.finish(zoom, (place[0] - HALF_ZOOM_M, place[0] + HALF_ZOOM_M,
-                           place[1] - HALF_ZOOM_M, place[1] + HALF_ZOOM_M))
     whole.set_title("whole drive")
     centre = "centre of the lane" if group.place["lanelets"] else "reference path"
     zoom.set_title(f"box enlarged: they differ most, by {1e3 * largest:.0f} mm" if len(runs) > 1 else

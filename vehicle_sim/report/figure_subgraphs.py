@@ -122,7 +122,7 @@ def draw_page(group: Group, rows: list[Row], looks: dict) -> style.Drawing:
     panels = figure.subplots(len(runs), 1, sharex=True, squeeze=False, gridspec_kw={"height_ratios": counts})[:, 0]
     numbers = [run.number for run in runs]
     drives = group.drives[group.drives["run"].isin(numbers)]
-    top_mps = max(0.1, drives["speed_mps"].abs().max())
+    top_mps = max(0.1, 1.08 * drives["speed_mps"].abs().max())
     for axes, run, count in zip(panels, runs, counts, strict=True):
         own = [row for row in rows if row.run == run]
         for rank, row in enumerate(own):

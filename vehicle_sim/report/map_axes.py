@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 
+import matplotlib.patheffects as effects
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Polygon, Rectangle
-import matplotlib.patheffects as effects
+from matplotlib.ticker import MaxNLocator
 
 from . import style
 
@@ -99,6 +100,8 @@ def finish(axes: Axes, extent: tuple[float, float, float, float], labels: bool =
     axes.set_aspect("equal")
     axes.set_xlim(extent[0], extent[1])
     axes.set_ylim(extent[2], extent[3])
+    if extent[1] - extent[0] > 8.0 * (extent[3] - extent[2]):
+        axes.yaxis.set_major_locator(MaxNLocator(1))
     axes.grid(False)
     if labels:
         axes.set_xlabel("$x$ [m]")
@@ -106,8 +109,11 @@ def finish(axes: Axes, extent: tuple[float, float, float, float], labels: bool =
 
 
 def mark_gridlock(axes: Axes, x: float, y: float, colour: str) -> None:
-    """A cross with the word where a car stands in gridlock as the run ends."""
+    """A cross with the word where a car stands in gridlock as the run ends; words of cars nearby above each other."""
+    near = 0.1 * (axes.get_xlim()[1] - axes.get_xlim()[0])
+    level = sum(np.hypot(text.xy[0] - x, text.xy[1] - y) < near for text in axes.texts
+                if text.get_text() == "gridlock")
     axes.plot([x], [y], marker="X", markersize=6, color=colour, markeredgecolor="#ffffff", markeredgewidth=0.6,
               linestyle="none", zorder=7)
-    axes.annotate("gridlock", (x, y), xytext=(5, 5), textcoords="offset points", fontsize=7, color=colour,
+    axes.annotate("gridlock", (x, y), xytext=(5, 5 + 9 * level), textcoords="offset points", fontsize=7, color=colour,
                   fontweight="bold", path_effects=HALO, zorder=8, annotation_clip=True)

@@ -67,6 +67,14 @@ class Paths(unittest.TestCase):
         end = group.drive_of(group.runs[1], 1).iloc[-1]
         self.assertEqual(words[0].xy, (end["x_m"], end["y_m"]))
 
+    def test_words_of_cars_that_stand_at_one_place_do_not_lie_on_each_other(self) -> None:
+        made_up = MadeUp(starts=1)
+        made_up.stuck = {(0, 1), (1, 1)}
+        figure = figure_paths.draw(made_up.group(self.folder)).figure
+        figure.draw_without_rendering()
+        first, second = [text for text in figure.axes[0].texts if text.get_text() == "gridlock"]
+        self.assertFalse(first.get_window_extent().overlaps(second.get_window_extent()))
+
 
 class Errors(unittest.TestCase):
     def setUp(self) -> None:
@@ -119,6 +127,10 @@ class Errors(unittest.TestCase):
         made_up.stuck = {(0, 1), (2, 1), (3, 1)}
         texts = texts_of(figure_error.draw(made_up.group(self.folder)).figure)
         self.assertIn("gridlock", texts)
+        figure = figure_error.draw(made_up.group(self.folder)).figure
+        figure.draw_without_rendering()
+        word = next(text for text in figure.axes[0].texts if text.get_text() == "gridlock")
+        self.assertLessEqual(word.get_window_extent().x1, figure.axes[0].get_window_extent().x1)
         self.assertIn("subgraph A (gridlock in 2 of 3 other starts)", texts)
 
 

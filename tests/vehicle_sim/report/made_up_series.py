@@ -164,6 +164,10 @@ def faults_of(drawing: style.Drawing) -> list[str]:
         faults += [f"legend over axes {axes.get_title(loc='left')}" for axes in panels
                    if legend.get_window_extent().overlaps(axes.get_window_extent())]
     paper = figure.bbox.padded(1.0)
+    for legend in figure.legends:
+        box = legend.get_window_extent()
+        if box.x0 < paper.x0 or box.x1 > paper.x1 or box.y0 < paper.y0 or box.y1 > paper.y1:
+            faults.append("legend beyond the paper")
     for text in figure.findobj(Text):
         if text.get_visible() and text.get_text() and not text.get_clip_on():
             box = text.get_window_extent()
