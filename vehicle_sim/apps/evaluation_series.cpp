@@ -10,9 +10,9 @@
 
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "planner/common/text_file.hpp"
+#include "planner/plot/scenario_data.hpp"
 #include "vehicle_sim/apps/clocks.hpp"
 #include "vehicle_sim/apps/missing_runs.hpp"
-#include "vehicle_sim/apps/series_places.hpp"
 #include "vehicle_sim/campaign/run_series.hpp"
 
 namespace hlc::apps {
@@ -92,7 +92,8 @@ class SeriesOfRuns {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       const campaign::CampaignRun& run = campaign_.runs()[i];
       const scenario::Scenario& scenario = campaign_.scenario_of(run);
-      if (known.insert(scenario.name).second) json["scenarios"].push_back(places_of(scenario));
+      if (known.insert(scenario.name).second)
+        json["scenarios"].push_back(plot::scenario_data(scenario));
       if (!runs_[i]) continue;
       const campaign::RunFigures heading = campaign_.heading_of(i);
       json["runs"].push_back({{"run", i},

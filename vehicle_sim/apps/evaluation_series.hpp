@@ -13,7 +13,7 @@ inline constexpr std::size_t kMostStartsInSeries = 32;
 /// Writes the series from which vehicle_sim/report draws, into `folder`, which is created:
 ///
 ///     steps.csv, drives.csv, distances.csv   campaign/run_series.hpp, by run
-///     places.json                            {"scenarios": [series_places.hpp],
+///     places.json                            {"scenarios": [scenario_data.hpp],
 ///                                             "runs": [{"run", "scenario", "profile", "subgraph",
 ///                                                       "policy", "start", "fault"}]}
 ///

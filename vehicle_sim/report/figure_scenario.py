@@ -96,8 +96,11 @@ def draw_map(axes: Axes, place: dict, looks: list[style.Stroke], extent: tuple, 
     map_axes.finish(axes, extent)
 
 
-def draw(place: dict) -> style.Drawing:
-    """The map; a road that is long as strips; more than MOST_ROUTES routes one by one below it."""
+def draw(place: dict, with_poses: bool = False) -> style.Drawing:
+    """The map; a road that is long as strips; more than MOST_ROUTES routes one by one below it.
+
+    with_poses: the legend has the cars' start poses, a sheet to place them by.
+    """
     extent = map_axes.extent_of(place)
     is_turned = extent[3] - extent[2] > LONG_ROAD * (extent[1] - extent[0])
     shown = turned(place) if is_turned else place
@@ -110,7 +113,7 @@ def draw(place: dict) -> style.Drawing:
     rows = -(-thumbnails // IN_A_ROW)
     map_in = len(strips) * (height_m * inch_per_m + 0.45)
     thumb_in = rows * (0.95 * height_m / width_m + 0.2) if rows else 0.0
-    figure = style.new_figure(map_in + thumb_in + 0.3 + 0.16 * -(-len(looks) // 4))
+    figure = style.new_figure(map_in + thumb_in + 0.3 + 0.16 * -(-len(looks) // (2 if with_poses else 4)))
     grid = figure.add_gridspec(2 if rows else 1, 1, height_ratios=[map_in, thumb_in] if rows else [1.0])
     maps = grid[0].subgridspec(len(strips), 1).subplots(squeeze=False)[:, 0]
     for axes, strip in zip(maps, strips, strict=True):
@@ -122,7 +125,7 @@ def draw(place: dict) -> style.Drawing:
             axes.set_xlabel("")
     if rows:
         draw_thumbnails(figure, grid[1].subgridspec(rows, IN_A_ROW), shown, looks, routes)
-    style.legend_below(figure, entries_of(shown, looks, bool(thumbnails)))
+    style.legend_below(figure, entries_of(shown, looks, bool(thumbnails), place if with_poses else None))
     caption = "Lanes with their ids, routes, and cars at the start with white fronts (the paper's Fig. 3)."
     return style.Drawing(f"scenario_{place['scenario']}", figure, table_of(place), caption)
 
@@ -143,11 +146,19 @@ def draw_thumbnails(figure: Figure, grid, place: dict, looks: list[style.Stroke]
         axes.set_title(", ".join(str(place["vehicles"][index]["id"]) for index in route), pad=2, fontsize=7)
 
 
-def entries_of(place: dict, looks: list[style.Stroke], has_thumbnails: bool) -> list[object]:
-    """Legend: a line per car, then lanes and zones."""
+def pose_text(car: dict) -> str:
+    """Where a car stands at the start."""
+    start = car["start"]
+    return (f", $x$ {start['x_m']:.2f} m, $y$ {start['y_m']:.2f} m, "
+            rf"$\psi$ {start['yaw_rad']:.2f} rad ({math.degrees(start['yaw_rad']):.0f}°)")
+
+
+def entries_of(place: dict, looks: list[style.Stroke], has_thumbnails: bool, poses_of: dict | None) -> list[object]:
+    """Legend: a line per car, then lanes and zones. poses_of: the place whose poses are named."""
     entries: list[object] = []
-    for car, look in zip(place["vehicles"], looks, strict=True):
-        entries.append(Line2D([], [], label=f"{car['id']}: {car['name']}", **look.line(), linewidth=1.4))
+    for index, (car, look) in enumerate(zip(place["vehicles"], looks, strict=True)):
+        pose = pose_text(poses_of["vehicles"][index]) if poses_of else ""
+        entries.append(Line2D([], [], label=f"{car['id']}: {car['name']}{pose}", **look.line(), linewidth=1.4))
     shared = [route for route in routes_of(place) if len(route) > 1]
     if shared and not has_thumbnails:
         entries.append(Line2D([], [], color=style.MARK, linewidth=1.4, label="route of several cars"))

@@ -1,7 +1,7 @@
 """The series of a campaign's runs: OUT/series, which `evaluate --series` writes.
 
-Columns: vehicle_sim/campaign/run_series.hpp; places.json: vehicle_sim/apps/series_places.hpp and
-evaluation_series.hpp.
+Columns: vehicle_sim/campaign/run_series.hpp; places.json: planner/plot/scenario_data.hpp and
+vehicle_sim/apps/evaluation_series.hpp.
 """
 
 import json

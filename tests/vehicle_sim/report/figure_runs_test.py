@@ -105,6 +105,17 @@ class Errors(unittest.TestCase):
         np.testing.assert_allclose(whole["high_mm"], 115.0)
         self.assertIn("11 other starts at the same place: 5 % to 95 %", legend_texts(figure_error.draw(group).figure))
 
+    def test_errors_of_one_place_meet_wherever_a_start_begins(self) -> None:
+        made_up = MadeUp(planned_on=(("A", "none"),), starts=4, steps=60)
+        made_up.place["vehicles"][0]["start_s_m"] = 2.0
+        made_up.error_at = lambda run, s_m: 5.0 * ((s_m - 2.0) % (2.0 * np.pi))  # by the place on the route
+        group = made_up.group(self.folder)
+        band = figure_error.spread(group, group.runs[0])
+        self.assertGreater(len(band), 20)
+        inner = band[(band["arc_length_m"] > 0.3) & (band["arc_length_m"] < 6.0)]
+        np.testing.assert_allclose(inner["median_mm"], 5.0 * inner["arc_length_m"], atol=0.5)
+        np.testing.assert_allclose(inner["high_mm"], inner["low_mm"], atol=1.0)
+
     def test_a_start_that_stands_long_at_a_place_counts_once_there(self) -> None:
         made_up = MadeUp(planned_on=(("A", "none"),), starts=4, steps=60)
         before = figure_error.spread(*self.first_of(made_up))

@@ -67,6 +67,8 @@ class Scenario(unittest.TestCase):
         car = next(patch for patch in axes.patches if isinstance(patch, Polygon) and patch.get_zorder() == 4)
         low, high = car.get_xy()[:, 1].min(), car.get_xy()[:, 1].max()
         self.assertAlmostEqual(0.5 * (low + high), -0.15)
+        routes = [line for line in axes.lines if line.get_color() == style.MARK and line.get_linewidth() > 1.0]
+        self.assertEqual([set(line.get_ydata()) for line in routes], [{-0.15}])
         axes.figure.draw_without_rendering()
         self.assertEqual(axes.yaxis.get_major_formatter()(-0.15, 0), "0.15")
 

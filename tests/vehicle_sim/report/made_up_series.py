@@ -74,6 +74,7 @@ class MadeUp:
         self.steps = steps
         self.stuck: set[tuple[int, int]] = set()  # run and vehicle
         self.off_m = {run["run"]: 0.01 * (run["run"] + 1) for run in self.runs}  # outside the ring
+        self.error_at = lambda run, s_m: 1e3 * self.off_m[run["run"]]
         self.subgraph_at = lambda run, vehicle, step: run["subgraph"]
         self.distance_at = lambda run, time_s: 0.05 + 0.1 * abs(time_s - 3.0)
         self.limit_at = lambda run, time_s: ""
@@ -92,14 +93,14 @@ class MadeUp:
         for car in self.vehicles_of(run):
             for step in range(self.steps):
                 time_s = STEP_S * step
+                s_m = car["start_s_m"] + 0.3 * run["start"] + self.way(run, car, time_s)
                 is_stuck = (run["run"], car["id"]) in self.stuck and step == self.steps - 1
                 rows.append([run["run"], run["scenario"], run["profile"], run["subgraph"], run["policy"], run["start"],
                              car["id"], car["name"], step, f"{time_s:.3f}", self.subgraph_at(run, car["id"], step),
                              0 if step == 0 else 100 + step, 0 if step == 0 else 10 + step,
                              "false" if step == 0 else "true",
                              "" if step == 0 or run["start"] else f"{0.01 * (step + 1)}",
-                             car["start_s_m"] + 0.3 * run["start"] + self.way(run, car, time_s),
-                             1e3 * self.off_m[run["run"]], "true" if is_stuck else "false"])
+                             s_m, self.error_at(run, s_m), "true" if is_stuck else "false"])
         return rows
 
     def drive_rows(self, run: dict) -> list[list[object]]:

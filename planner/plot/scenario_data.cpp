@@ -1,27 +1,20 @@
-#include "vehicle_sim/apps/series_places.hpp"
+#include "planner/plot/scenario_data.hpp"
 
-#include <vector>
-
+#include "planner/plot/json_points.hpp"
 #include "planner/road/lanelet_map.hpp"
 
-namespace hlc::apps {
+namespace hlc::plot {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json points_of(const std::vector<Point>& points_m) {
-  Json points = Json::array();
-  for (const Point& point : points_m) points.push_back({point.x(), point.y()});
-  return points;
-}
 
 Json lanelets_of(const scenario::Scenario& scenario) {
   Json lanelets = Json::array();
   if (!scenario.map_file) return lanelets;
   for (const auto& [id, lanelet] : road::read_lanelet_map(*scenario.map_file).lanelets) {
     lanelets.push_back({{"id", id},
-                        {"left_m", points_of(lanelet.left_m)},
-                        {"right_m", points_of(lanelet.right_m)}});
+                        {"left_m", json_points(lanelet.left_m)},
+                        {"right_m", json_points(lanelet.right_m)}});
   }
   return lanelets;
 }
@@ -35,7 +28,7 @@ Json vehicle_of(const scenario::Scenario& scenario, const scenario::ScenarioVehi
           {"path",
            {{"is_closed", vehicle.path.is_closed()},
             {"length_m", vehicle.path.length_m()},
-            {"points_m", points_of(vehicle.path.points_m())}}}};
+            {"points_m", json_points(vehicle.path.points_m())}}}};
 }
 
 Json zones_of(const scenario::Scenario& scenario) {
@@ -54,7 +47,7 @@ Json zones_of(const scenario::Scenario& scenario) {
 
 }  // namespace
 
-Json places_of(const scenario::Scenario& scenario) {
+Json scenario_data(const scenario::Scenario& scenario) {
   const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
   const Footprint& footprint = automaton.vehicle.footprint;
   Json places{{"scenario", scenario.name},
@@ -70,4 +63,4 @@ Json places_of(const scenario::Scenario& scenario) {
   return places;
 }
 
-}  // namespace hlc::apps
+}  // namespace hlc::plot

@@ -4,7 +4,7 @@
 
 #include "planner/scenario/scenario.hpp"
 
-namespace hlc::apps {
+namespace hlc::plot {
 
 /// Where a scenario is driven, for figures:
 ///
@@ -17,6 +17,6 @@ namespace hlc::apps {
 ///
 /// `start` is the measured pose (scenario::measured_start). `zones` has the policies that have any.
 /// @throws std::runtime_error as read_lanelet_map
-[[nodiscard]] nlohmann::ordered_json places_of(const scenario::Scenario& scenario);
+[[nodiscard]] nlohmann::ordered_json scenario_data(const scenario::Scenario& scenario);
 
-}  // namespace hlc::apps
+}  // namespace hlc::plot
