@@ -82,7 +82,7 @@ void declare(CLI::App& app, Flags& flags) {
   hlc::apps::declare_output(app, flags.plot, "plot to write (SVG, PDF)");
   app.footer(
       "Exit codes: 0 success, 1 a point was not found or an output cannot be written, 2 invalid "
-      "input.");
+      "input, 3 all but the drawing.");
 }
 
 std::string printed(const std::vector<double>& numbers) {

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 
 from . import style
 from .series import Group, Run
@@ -58,7 +59,7 @@ def draw(group: Group) -> style.Drawing | None:
                          f"Distance between driven cars where it is below {SHOWN_M} m, scenario's own start.")
 
 
-def draw_pairs(axes, rows: pd.DataFrame, looks: dict[str, style.Stroke], run: Run) -> None:
+def draw_pairs(axes: Axes, rows: pd.DataFrame, looks: dict[str, style.Stroke], run: Run) -> None:
     """The lines of one run, the closest pairs on top."""
     least = rows["distance_m"].min() if len(rows) else np.inf
     axes.set_title(f"{run.label}: " + (f"at least {1e3 * least:.0f} mm" if least < SHOWN_M else

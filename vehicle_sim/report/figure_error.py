@@ -81,7 +81,8 @@ def draw(group: Group) -> style.Drawing | None:
     data = pd.concat([table for table in tables if len(table)])
     data = data[["planned_on", "what", *[name for name in data.columns if name not in ("planned_on", "what")]]]
     return style.Drawing(f"error_{group.scenario}_{group.profile}", figure, data,
-                         f"Reference error of car {first['id']} ({first['name']}): distance of its planned positions to the {centre}.")
+                         f"Reference error of car {first['id']} ({first['name']}): distance of its planned "
+                         f"positions to the {centre}.")
 
 
 def mark_gridlock(axes: Axes, group: Group, run: Run, line: pd.DataFrame, colour: str) -> None:

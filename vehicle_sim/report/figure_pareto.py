@@ -49,6 +49,7 @@ def draw_lines(axes: Axes, data: dict, colours: list,
 def state_over_time(column: int) -> Callable[[dict], tuple[np.ndarray, np.ndarray]]:
     """A column of the states over time."""
     def values(point: dict) -> tuple[np.ndarray, np.ndarray]:
+        """Times and states."""
         states = np.array(point["states"])
         return np.linspace(0.0, point["duration_s"], len(states)), states[:, column]
     return values
@@ -57,6 +58,7 @@ def state_over_time(column: int) -> Callable[[dict], tuple[np.ndarray, np.ndarra
 def input_over_time(column: int) -> Callable[[dict], tuple[np.ndarray, np.ndarray]]:
     """A column of the inputs over time: constant on each interval."""
     def values(point: dict) -> tuple[np.ndarray, np.ndarray]:
+        """Begins and ends of the intervals, and the inputs there."""
         inputs = np.array(point["inputs"])[:, column]
         times = np.linspace(0.0, point["duration_s"], len(inputs) + 1)
         return np.repeat(times, 2)[1:-1], np.repeat(inputs, 2)

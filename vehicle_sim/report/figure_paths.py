@@ -53,7 +53,8 @@ def draw_drives(axes: Axes, group: Group, looks: dict[int, style.Stroke]) -> Non
             axes.plot(drive["x_m"], drive["y_m"], color=looks[run.number].colour, linewidth=0.4, alpha=0.35, zorder=2)
     for run in group.runs:
         drive = group.drive_of(run, first)
-        axes.plot(drive["x_m"], drive["y_m"], **looks[run.number].line(), linewidth=1.2, zorder=3 + looks[run.number].rank)
+        look = looks[run.number]
+        axes.plot(drive["x_m"], drive["y_m"], **look.line(), linewidth=1.2, zorder=3 + look.rank)
 
 
 def draw(group: Group) -> style.Drawing | None:

@@ -78,7 +78,8 @@ def draw_plan(axes: Axes, data: dict, colours: list) -> None:
     """Swept areas, footprints, positions and references of all steps."""
     for index, vehicle in enumerate(data["vehicles"]):
         start = vehicle["start"]
-        axes.add_patch(Polygon(footprint(data, start), facecolor="#ffffff", edgecolor="#000000", linewidth=0.9, zorder=4))
+        axes.add_patch(Polygon(footprint(data, start), facecolor="#ffffff", edgecolor="#000000", linewidth=0.9,
+                               zorder=4))
         for step, area in enumerate(vehicle["swept"]):
             add_area(axes, area, colours[step], zorder=3)
         poses = np.array(vehicle["poses"]).reshape(-1, 3)

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.gridspec import SubplotSpec
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -124,18 +125,20 @@ def draw(place: dict, with_poses: bool = False) -> style.Drawing:
         if axes is not maps[-1]:
             axes.set_xlabel("")
     if rows:
-        draw_thumbnails(figure, grid[1].subgridspec(rows, IN_A_ROW), shown, looks, routes)
+        draw_thumbnails(figure, grid[1], shown, looks, routes)
     style.legend_below(figure, entries_of(shown, looks, bool(thumbnails), place if with_poses else None))
     caption = "Lanes with their ids, routes, and cars at the start with white fronts (the paper's Fig. 3)."
     return style.Drawing(f"scenario_{place['scenario']}", figure, table_of(place), caption)
 
 
-def draw_thumbnails(figure: Figure, grid, place: dict, looks: list[style.Stroke], routes: list[list[int]]) -> None:
+def draw_thumbnails(figure: Figure, grid: SubplotSpec, place: dict, looks: list[style.Stroke],
+                    routes: list[list[int]]) -> None:
     """A small map for each route, with the ids of its cars."""
     extent = map_axes.extent_of(place)
+    cells = grid.subgridspec(-(-len(routes) // IN_A_ROW), IN_A_ROW)
     inch_per_m = 0.95 / (extent[1] - extent[0])
     for number, route in enumerate(routes):
-        axes = figure.add_subplot(grid[number // IN_A_ROW, number % IN_A_ROW])
+        axes = figure.add_subplot(cells[number // IN_A_ROW, number % IN_A_ROW])
         map_axes.draw_lanes(axes, place)
         car = place["vehicles"][route[0]]
         draw_route(axes, map_axes.path_points(car), looks[route[0]], inch_per_m, 1.2)

@@ -17,13 +17,14 @@ MARK = "#444444"  # bounds, marks: no series
 ZONE = "#e6e6e6"
 LANE = "#f2f2f2"
 LANE_BORDER = "#a8a8a8"
-OTHERS = "#b8b8b8"  # what is shown, but not told apart
+OTHERS = "#b8b8b8"  # what is shown, but not distinguished
 
 # Okabe and Ito, Color Universal Design (2008), without the yellow, which is too pale for lines.
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
 COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, "#000000")
 STROKES = ("solid", (0, (4, 1.5)), (0, (1, 1.2)), (0, (5, 1.2, 1, 1.2)))
-COLOUR_OF_NAME = {"red": VERMILION, "blue": BLUE, "green": GREEN, "orange": ORANGE, "purple": PURPLE, "black": "#000000"}
+COLOUR_OF_NAME = {"red": VERMILION, "blue": BLUE, "green": GREEN, "orange": ORANGE, "purple": PURPLE,
+                  "black": "#000000"}
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ def new_figure(height_in: float, layout: str = "constrained") -> Figure:
 
 
 def stroke(index: int) -> Stroke:
-    """The stroke of a series by its number: every second one is dashed, so that two lines on each other are both seen."""
+    """The stroke of a series by its number: every second one is dashed, so that two lines on each other both show."""
     colour = index % len(COLOURS)
     return Stroke(COLOURS[colour], STROKES[(colour % 2 + index // len(COLOURS)) % len(STROKES)])
 
@@ -103,14 +104,14 @@ def line_entry(label: str, look: Stroke, width: float = 1.4) -> Line2D:
     return Line2D([], [], label=label, linewidth=width, color=look.colour, linestyle=look.dashes)
 
 
-def legend_below(figure: Figure, entries: Sequence[object], widest: int | None = None) -> None:
+def legend_below(figure: Figure, entries: Sequence[object]) -> None:
     """One legend for all axes, below them: it hides nothing.
 
     The number of columns follows from the longest text.
     """
     longest = max(len(str(entry.get_label())) for entry in entries)
     fitting = max(1, int(WIDTH_IN * 72.0 / (3.9 * longest + 40.0)))
-    columns = min(len(entries), widest or fitting, fitting)
+    columns = min(len(entries), fitting)
     figure.legend(handles=list(entries), loc="outside lower center", ncols=columns, columnspacing=1.4)
 
 

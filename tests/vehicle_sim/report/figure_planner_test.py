@@ -64,7 +64,8 @@ class Automaton(unittest.TestCase):
         self.assertEqual(by_colour.count(style.VERMILION.lower()), 11)
         double = [arrow for arrow in arrows if isinstance(arrow.get_arrowstyle(), ArrowStyle.CurveFilledAB)]
         self.assertEqual({to_hex(arrow.get_edgecolor()) for arrow in double}, {style.BLUE.lower()})
-        self.assertEqual(legend_texts(drawing.figure), ["optimal for $J_1$", "optimal for $J_2$", "trim, with its number"])
+        self.assertEqual(legend_texts(drawing.figure),
+                         ["optimal for $J_1$", "optimal for $J_2$", "trim, with its number"])
         for text in (r"steering angle $\delta$ [rad]", "speed $v$ [m/s]", "12"):
             self.assertIn(text, texts_of(drawing.figure))
         self.assertEqual(faults_of(drawing), [])

@@ -38,7 +38,7 @@ class Vertices(WithFolder):
         self.assertTrue(first["generated"].isna().all())
         self.assertFalse(drawing.data[drawing.data["time_s"] > 0.0]["generated"].isna().any())
 
-    def test_of_many_cars_the_largest_and_the_median_are_told_apart(self) -> None:
+    def test_of_many_cars_the_largest_and_the_median_have_colours(self) -> None:
         drawing = figure_vertices.draw(MadeUp(cars=20, starts=1).group(self.folder))
         self.assertEqual(legend_texts(drawing.figure),
                          ["largest tree of a car", "median of the cars", "each of the 20 cars"])
