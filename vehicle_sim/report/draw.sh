@@ -25,4 +25,4 @@ if ! reason=$("$make" "$environment" "$here/requirements.txt" 2>&1); then
   echo "draw.sh: $3 is not drawn, Python's packages of $here/requirements.txt are missing: ${reason##*$'\n'}" >&2
   exit 3
 fi
-PYTHONPATH=$(dirname "$here") exec "$environment/bin/python" -m report.draw "$@"
+PYTHONPATH=$(dirname "$here") PYTHONDONTWRITEBYTECODE=1 exec "$environment/bin/python" -m report.draw "$@"

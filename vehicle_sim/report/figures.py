@@ -55,7 +55,7 @@ def draw_all(folder: Path) -> list[str]:
     with style.journal():
         for group, drawing in drawings_of(groups):
             if group is not last:
-                lines += [f"### {heading_of(group)}", ""]
+                lines += [f"## {heading_of(group)}", ""]
                 lines += [*notes_of(group), ""] if notes_of(group) else []
                 last = group
             files = style.save(drawing, target)

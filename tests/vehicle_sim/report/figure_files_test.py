@@ -34,7 +34,7 @@ class FigureFiles(unittest.TestCase):
             comments = comments_of(self.folder / "report" / f"{name}.svg")
             self.assertTrue(any("[" in text and "]" in text for text in comments), f"{name}: no unit")
             self.assertFalse([text for text in comments if "two_rings" in text or "the_2022" in text])
-        self.assertIn("### two rings, profile the 2022", lines)
+        self.assertIn("## two rings, profile the 2022", lines)
 
     def test_the_same_series_give_the_same_bytes(self) -> None:
         folders = [MadeUp().write(self.folder / name) for name in ("one", "two")]
