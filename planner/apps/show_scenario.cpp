@@ -7,7 +7,6 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/common/text_file.hpp"
 #include "planner/plot/drawing.hpp"
 #include "planner/plot/scenario_data.hpp"
 #include "planner/scenario/scenario.hpp"

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <iostream>
+#include <cstdio>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "hlc_bridge/record/program.hpp"
 #include "planner/apps/flags.hpp"
-#include "vehicle_sim/apps/clocks.hpp"
 #include "vehicle_sim/apps/drive_campaign.hpp"
 #include "vehicle_sim/apps/drive_sweep.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
