@@ -21,7 +21,8 @@
 #include "planner/common/text_file.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
-#include "planner/plot/automaton_plot.hpp"
+#include "planner/plot/automaton_data.hpp"
+#include "planner/plot/drawing.hpp"
 
 namespace {
 
@@ -71,7 +72,7 @@ void check_subgraphs(const hlc::automaton::AutomatonFile& file,
   }
 }
 
-void run(const Choices& choices) {
+int run(const Choices& choices) {
   if (hlc::automaton::is_automaton_file(choices.configuration)) {
     throw std::invalid_argument(choices.configuration.string() +
                                 ": a built automaton, must be a configuration");
@@ -95,14 +96,13 @@ void run(const Choices& choices) {
   if (const auto& table = choices.table.file) {
     hlc::write_file(*table, hlc::apps::maneuver_table(*file.automaton));
   }
-  if (const auto& plot = choices.plot.file) {
-    hlc::write_file(*plot, hlc::plot::automaton_plot(file));
-  }
   std::printf("%s: %zu trims, %zu maneuvers, labels", choices.out.file->c_str(),
               configuration.trims.size(),
               file.automaton->maneuvers.size() - configuration.trims.size());
   for (const std::string& label : file.labels) std::printf(" %s", label.c_str());
   std::printf(", built in %.2f s\n", wall_s);
+  const auto& plot = choices.plot.file;
+  return plot ? hlc::plot::draw("automaton", hlc::plot::automaton_data(file), *plot) : 0;
 }
 
 }  // namespace
@@ -115,14 +115,16 @@ int main(int argc, char** argv) {
   app.add_option("CONFIG", choices.configuration, "configuration (YAML)")->required();
   hlc::apps::declare_output(app, choices.out, "automaton file to write (YAML)")->required();
   hlc::apps::declare_output(app, choices.table, "write a table of all maneuvers (CSV)");
-  hlc::apps::declare_output(app, choices.plot, "draw trims and maneuvers (SVG)");
+  hlc::apps::declare_output(app, choices.plot, "draw trims and maneuvers (SVG, PDF)");
   app.add_option("--intervals", choices.intervals,
                  "intervals of constant input, instead of the configuration's")
       ->check(hlc::apps::whole(10, 1000));
   app.add_option("--jobs", choices.jobs, "maneuvers designed at a time")
       ->check(hlc::apps::whole(1, 256))
       ->capture_default_str();
-  app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
+  app.footer(
+      "Exit codes: 0 success, 1 an output cannot be written, 2 invalid input, 3 all but the "
+      "drawing.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
-  return hlc::apps::exit_code_of("build_automaton", [&choices] { run(choices); });
+  return hlc::apps::exit_code_of("build_automaton", [&choices] { return run(choices); });
 }

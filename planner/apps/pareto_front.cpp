@@ -20,7 +20,8 @@
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/criteria.hpp"
-#include "planner/plot/pareto_plot.hpp"
+#include "planner/plot/drawing.hpp"
+#include "planner/plot/pareto_data.hpp"
 
 namespace {
 
@@ -78,10 +79,10 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::apps::among({"front", "second"}))
       ->capture_default_str();
   hlc::apps::declare_output(app, flags.table, "table to write (CSV)")->required();
-  hlc::apps::declare_output(app, flags.plot, "plot to write (SVG)");
+  hlc::apps::declare_output(app, flags.plot, "plot to write (SVG, PDF)");
   app.footer(
       "Exit codes: 0 success, 1 a point was not found or an output cannot be written, 2 invalid "
-      "input.");
+      "input, 3 all but the drawing.");
 }
 
 std::string printed(const std::vector<double>& numbers) {
@@ -163,7 +164,7 @@ void print_summary(const Flags& flags, const hlc::maneuver_design::ParetoFront& 
   }
 }
 
-void run(const Flags& flags) {
+int run(const Flags& flags) {
   const hlc::maneuver_design::ParetoProblem problem = problem_of(flags);
   hlc::apps::check_output_files({flags.table, flags.plot}, {flags.configuration});
   hlc::maneuver_design::ParetoOptions options;
@@ -191,10 +192,11 @@ void run(const Flags& flags) {
                                                  problem.maneuver.duration_s, flags.criteria,
                                                  problem.maneuver.free_duration};
   hlc::write_file(*flags.table.file, hlc::apps::pareto_table(front, description));
-  if (const auto& plot = flags.plot.file) {
-    hlc::write_file(*plot, hlc::plot::pareto_plot(front, weighted_sums, description));
-  }
   print_summary(flags, front, weighted_sums);
+  const auto& plot = flags.plot.file;
+  if (!plot) return 0;
+  return hlc::plot::draw("pareto", hlc::plot::pareto_data(front, weighted_sums, description),
+                         *plot);
 }
 
 }  // namespace
@@ -205,5 +207,5 @@ int main(int argc, char** argv) {
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
-  return hlc::apps::exit_code_of("pareto_front", [&flags] { run(flags); });
+  return hlc::apps::exit_code_of("pareto_front", [&flags] { return run(flags); });
 }

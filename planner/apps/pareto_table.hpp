@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "planner/plot/pareto_plot.hpp"
+#include "planner/plot/pareto_data.hpp"
 
 namespace hlc::apps {
 

@@ -16,7 +16,8 @@
 #include "planner/apps/output_files.hpp"
 #include "planner/apps/search_json.hpp"
 #include "planner/common/text_file.hpp"
-#include "planner/plot/problem_plot.hpp"
+#include "planner/plot/drawing.hpp"
+#include "planner/plot/problem_data.hpp"
 #include "planner/plot/search_page.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/joint_problem_file.hpp"
@@ -75,7 +76,7 @@ void declare(CLI::App& app, Flags& flags) {
       "infeasible, budget), cost [m^2], lower_bound, gap, trims (n of them, after each "
       "step, from 1), poses ([x, y, psi] after each step), generated, expanded, "
       "planning_us. Of a joint problem: see planner/apps/joint_plan.hpp");
-  hlc::apps::declare_output(app, flags.plot, "write a picture of problem and plan (SVG)");
+  hlc::apps::declare_output(app, flags.plot, "write a picture of problem and plan (SVG, PDF)");
   hlc::apps::declare_output(
       app, flags.tree,
       "write what was searched: FILE.html, a page with the search tree, what ruled out the other "
@@ -83,8 +84,7 @@ void declare(CLI::App& app, Flags& flags) {
       "also if the problem names another engine; cost-to-go reachable or straight_line");
   app.footer(
       "Exit codes: 0 there is a plan, 1 there is none (fallback), 2 invalid input or an output "
-      "that "
-      "cannot be written.");
+      "that cannot be written, 3 the plan is not drawn.");
 }
 
 /// Only the plain engine records its search.
@@ -210,6 +210,13 @@ void write_tree(const hlc::scenario::ProblemFile& file, const std::filesystem::p
                                                     : hlc::apps::search_json(file, recorded));
 }
 
+/// Problem and plan, if asked for. @return 0 or the exit code
+template <class File, class Result>
+int draw(const Flags& flags, const File& file, const Result& result) {
+  if (!flags.plot.file) return 0;
+  return hlc::plot::draw("problem", hlc::plot::problem_data(file, result), *flags.plot.file);
+}
+
 int run_joint(const Flags& flags) {
   if (flags.tree.file) {
     throw std::invalid_argument(fmt::format("--tree = {}, must be absent: {} is a joint problem",
@@ -233,9 +240,7 @@ int run_joint(const Flags& flags) {
   } else {
     hlc::apps::print(file, solution);
   }
-  if (flags.plot.file) {
-    hlc::write_file(*flags.plot.file, hlc::plot::joint_problem_plot(file, solution.joint));
-  }
+  if (const int code = draw(flags, file, solution.joint); code != 0) return code;
   return solution.joint.plans.empty() ? kExitFallback : 0;
 }
 
@@ -251,10 +256,8 @@ int run(const Flags& flags) {
   } else {
     print(file, solved);
   }
-  if (flags.plot.file) {
-    hlc::write_file(*flags.plot.file, hlc::plot::problem_plot(file, solved.result));
-  }
   if (flags.tree.file) write_tree(file, *flags.tree.file);
+  if (const int code = draw(flags, file, solved.result); code != 0) return code;
   return solved.result.status == hlc::search::SearchStatus::kFallback ? kExitFallback : 0;
 }
 

@@ -7,8 +7,8 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/common/text_file.hpp"
-#include "planner/plot/scenario_plot.hpp"
+#include "planner/plot/drawing.hpp"
+#include "planner/plot/scenario_data.hpp"
 #include "planner/scenario/scenario.hpp"
 
 namespace {
@@ -68,9 +68,10 @@ int main(int argc, char** argv) {
                "print only `id x,y,yaw stamps` per vehicle (the next one may follow)");
   app.add_flag("--print_steps", steps, "print only the number of steps");
   hlc::apps::declare_output(app, plot,
-                            "draw lanes, reference paths and cars at the start (SVG); with "
+                            "draw lanes, reference paths and cars at the start (SVG, PDF); with "
                             "--starts also their poses: a sheet to place them by");
-  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
+  app.footer(
+      "Exit codes: 0 success, 2 invalid input or an output that cannot be written, 3 not drawn.");
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
   const auto run = [&] {
     std::vector<std::filesystem::path> inputs{choices.file};
@@ -78,13 +79,12 @@ int main(int argc, char** argv) {
     hlc::apps::check_output_files({plot}, inputs);
     const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
     hlc::apps::check_output_files({plot}, hlc::scenario::files_of(scenario));
-    if (plot.file) {
-      hlc::write_file(*plot.file,
-                      hlc::plot::scenario_plot(scenario, hlc::plot::map_of(scenario), starts));
-    }
     if (starts) print_starts(scenario);
     if (steps) std::printf("%zu\n", scenario.steps);
     if (!starts && !steps) print_table(scenario);
+    if (!plot.file) return 0;
+    return hlc::plot::draw(starts ? "sheet" : "scenario", hlc::plot::scenario_data(scenario),
+                           *plot.file);
   };
   return hlc::apps::exit_code_of("show_scenario", run, kExitFailed);
 }

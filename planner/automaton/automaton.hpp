@@ -27,7 +27,7 @@ struct Trim {
 inline const std::string kSelfLoopLabel = "trim";
 
 /// Motion of one step from one trim to another, or of a trim itself: its self-loop, the trim driven
-/// for one step, for every label, or a maneuver back to it that is optimal for a label (OwnSteps).
+/// for one step, for every label, or a maneuver back to it that is optimal for a label (SelfLoops).
 ///
 /// All quantities are in the frame of the start pose (start at the origin, heading 0).
 struct Maneuver {

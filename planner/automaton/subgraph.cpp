@@ -230,8 +230,9 @@ void Subgraph::switch_trims_on() {
                               [&trims](TrimId trim) { return trims[trim.index].is_equilibrium(); });
 }
 
-/// The labels of an edge between enabled trims. A trim's own step has those of the maneuvers back
-/// to it that the automaton holds and the speed limit admits, and is its self-loop without any.
+/// The labels of an edge between enabled trims. That of a trim to itself has those of the maneuvers
+/// back to it that the automaton holds and the speed limit admits, and is its self-loop without
+/// any.
 std::vector<std::string> Subgraph::held_labels(
     const TrimPair& edge, const std::vector<const Maneuver*>& maneuvers) const {
   std::vector<std::string> labels = labels_of(spec_, edge);

@@ -231,9 +231,9 @@ void add_bound(const FrontPoint& point, const DesignTask& task,
   problem.cost_bounds.push_back({bounded, best + point.share * (worst - best)});
 }
 
-/// Whether a trim's own step is designed. See OwnSteps.
-bool is_own_step_designed(TrimId trim, const AutomatonConfiguration& configuration) {
-  return configuration.own_steps == OwnSteps::kOptimised &&
+/// Whether a maneuver from a trim back to it is designed. See SelfLoops.
+bool is_self_loop_designed(TrimId trim, const AutomatonConfiguration& configuration) {
+  return configuration.self_loops == SelfLoops::kOptimised &&
          !configuration.trims[trim.index].is_equilibrium();
 }
 
@@ -245,7 +245,7 @@ std::set<TrimPair> needed_pairs(const AutomatonConfiguration& configuration) {
     for (const TrimPair& pair :
          automaton::rule_edges(rule, configuration.trims, trims, configuration.vehicle,
                                configuration.limits, configuration.step_s)) {
-      if (pair.from == pair.to && !is_own_step_designed(pair.from, configuration)) continue;
+      if (pair.from == pair.to && !is_self_loop_designed(pair.from, configuration)) continue;
       if (subgraph != nullptr && automaton::labels_of(*subgraph, pair).empty()) continue;
       needed.insert(pair);
     }

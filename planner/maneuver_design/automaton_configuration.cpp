@@ -185,10 +185,10 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
       file.optional<std::string>("edges", "subgraphs", one_of({"subgraphs", "all"})) == "all"
           ? EdgeChoice::kAll
           : EdgeChoice::kSubgraphs;
-  configuration.own_steps =
+  configuration.self_loops =
       file.optional<std::string>("own_steps", "trim", one_of({"trim", "optimised"})) == "optimised"
-          ? OwnSteps::kOptimised
-          : OwnSteps::kTrim;
+          ? SelfLoops::kOptimised
+          : SelfLoops::kTrim;
   configuration.criteria = read_criteria(file);
   configuration.subgraphs = automaton::read_subgraphs(
       file, {configuration.trims, configuration.vehicle, configuration.limits, configuration.step_s,

@@ -36,7 +36,7 @@ enum class EdgeChoice {
 };
 
 /// The step that a moving trim makes back to itself. Standstill stands.
-enum class OwnSteps {
+enum class SelfLoops {
   kTrim,       ///< the trim itself, driven for one step, whatever the label
   kOptimised,  ///< optimal for each label, like every other edge: the trim at both ends, free
                ///< between them
@@ -64,7 +64,7 @@ struct AutomatonConfiguration {
       8};                     ///< in so many steps every trim of a subgraph must reach standstill
   std::size_t intervals{20};  ///< of constant input, per maneuver
   EdgeChoice edges{EdgeChoice::kSubgraphs};
-  OwnSteps own_steps{OwnSteps::kTrim};
+  SelfLoops self_loops{SelfLoops::kTrim};
   std::vector<LabelledCriterion> criteria;
   std::vector<automaton::SubgraphSpec> subgraphs;
   ConfigurationPlaces places;  ///< empty unless read from a file
@@ -85,7 +85,7 @@ struct AutomatonConfiguration {
 ///     horizon_steps  (default 8)
 ///     intervals   (default 20)
 ///     edges:      subgraphs (default) | all
-///     own_steps:  trim (default) | optimised, see OwnSteps
+///     own_steps:  trim (default) | optimised, see SelfLoops
 ///     criteria:   list of names (see criteria.hpp), or of
 ///                 {name, weights: {J1: 0.5, J2: 0.5}, normalised: true | false (default)} (true
 ///                 needs two weights > 0), or of {name, minimise: J1, bound: J2, share: 0.5} (a

@@ -129,13 +129,6 @@ std::string svg_of(const std::string& title, const std::vector<PlotPanel>& panel
   return out + "</svg>\n";
 }
 
-std::string red_to_blue(double share) {
-  const double s = std::clamp(share, 0.0, 1.0);
-  const auto byte = [](double value) { return static_cast<int>(std::lround(value)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", byte(214.0 * (1.0 - s) + 20.0 * s),
-                     byte(30.0 + 40.0 * s), byte(35.0 * (1.0 - s) + 215.0 * s));
-}
-
 std::string series_colour(std::size_t series) {
   constexpr std::array kColours{"#1f4fd8", "#d62728", "#2ca02c", "#8e44ad", "#e67e22",
                                 "#16a085", "#7f8c8d", "#c2185b", "#6b3e1e", "#e0c000"};

@@ -99,9 +99,6 @@ struct PlotSize {
                                  std::size_t columns, const PlotSize& panel = {},
                                  const std::vector<PlotLegend>& legend = {});
 
-/// From red (0) over violet to blue (1), as "#rrggbb".
-[[nodiscard]] std::string red_to_blue(double share);
-
 /// Ten colours for series; repeated after the last.
 [[nodiscard]] std::string series_colour(std::size_t series);
 

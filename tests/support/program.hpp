@@ -16,12 +16,9 @@ struct Outcome {
   std::string output;  ///< of both streams
 };
 
-/// Runs a program of this build to its end.
-/// @param command  name and flags, as for a shell
-/// @param before   commands of the shell before it: "ulimit -f 32; "
-inline Outcome run_program(const std::string& command, const std::string& before = "") {
-  const std::string line = before + test::build_folder() + "/bin/" + command + " 2>&1";
-  FILE* pipe = popen(line.c_str(), "r");
+/// Runs a command of the shell to its end.
+inline Outcome run_command(const std::string& command) {
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   EXPECT_NE(pipe, nullptr);
   Outcome outcome;
   std::array<char, 256> buffer{};
@@ -31,6 +28,13 @@ inline Outcome run_program(const std::string& command, const std::string& before
   const int status = pclose(pipe);
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
+}
+
+/// Runs a program of this build to its end.
+/// @param command  name and flags, as for a shell
+/// @param before   commands of the shell before it: "ulimit -f 32; "
+inline Outcome run_program(const std::string& command, const std::string& before = "") {
+  return run_command(before + test::build_folder() + "/bin/" + command);
 }
 
 }  // namespace hlc::test

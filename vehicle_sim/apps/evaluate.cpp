@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <iostream>
+#include <cstdio>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "hlc_bridge/record/program.hpp"
 #include "planner/apps/flags.hpp"
-#include "vehicle_sim/apps/clocks.hpp"
 #include "vehicle_sim/apps/drive_campaign.hpp"
 #include "vehicle_sim/apps/drive_sweep.hpp"
-#include "vehicle_sim/apps/evaluation_figures.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
 #include "vehicle_sim/apps/evaluation_results.hpp"
+#include "vehicle_sim/apps/evaluation_series.hpp"
 #include "vehicle_sim/apps/merged_rows.hpp"
 #include "vehicle_sim/apps/missing_runs.hpp"
 #include "vehicle_sim/apps/report.hpp"
@@ -33,13 +32,12 @@ struct Choices {
   std::string shard;                          ///< "2/20"; empty: all runs
   std::vector<std::filesystem::path> merged;  ///< not empty: no run is driven
   std::filesystem::path out;
+  bool writes_series{};
   bool makes_report{};
-  hlc::apps::FigureChoices figures;
   bool is_sweep{false};  ///< otherwise a campaign
   std::filesystem::path sweep;
 };
 
-constexpr char kAllFigures[] = "all";
 constexpr int kExitNotWritten = 3;
 constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
 constexpr std::uint64_t kMostShards = 100'000;
@@ -59,7 +57,7 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
-std::filesystem::path figure_folder(const Choices& choices) { return choices.out / "figures"; }
+std::filesystem::path series_folder(const Choices& choices) { return choices.out / "series"; }
 
 /// All input of the campaign. A file that cannot be read is invalid input.
 hlc::campaign::Campaign read(Choices& choices) {
@@ -76,50 +74,17 @@ hlc::campaign::Campaign read(Choices& choices) {
   if (std::ranges::find(choices.plan.policies, "") != choices.plan.policies.end()) {
     throw std::invalid_argument("--policies: an empty name, must be a policy of the scenario");
   }
-  hlc::apps::FigureChoices& figures = choices.figures;
-  const auto is_asked_for = [&](const char* name) {
-    return std::ranges::find(figures.names, name) != figures.names.end();
-  };
-  const bool draws_all = is_asked_for(kAllFigures);
-  if (draws_all) figures.names = hlc::apps::figure_names();
-  if (!figures.pareto_configuration.empty() && !is_asked_for("pareto_set")) {
-    throw std::invalid_argument(
-        "--pareto_configuration = " + figures.pareto_configuration.string() +
-        " requires --figures=pareto_set");
-  }
-  if (figures.pareto_configuration.empty()) {
-    figures.pareto_configuration =
-        (choices.scenario_folder / "../automata/pareto_example.yaml").lexically_normal();
-  }
-  figures.clocks = hlc::apps::machine_clocks();
-  const std::filesystem::path folder = figure_folder(choices);
-  if (!figures.names.empty() && std::filesystem::exists(folder) &&
+  const std::filesystem::path folder = series_folder(choices);
+  if (choices.writes_series && std::filesystem::exists(folder) &&
       !std::filesystem::is_directory(folder)) {
     throw std::invalid_argument("--out = " + choices.out.string() +
-                                ": figures must be a folder or absent");
+                                ": series must be a folder or absent");
   }
   try {
-    hlc::apps::check_figures(figures);
-    hlc::campaign::Campaign campaign(choices.plan);
-    const auto is_alone = [&](const hlc::campaign::CampaignRun& run) {
-      return campaign.scenario_of(run).vehicles.size() == 1;
-    };
-    if (!draws_all && is_asked_for("distance") && std::ranges::all_of(campaign.runs(), is_alone)) {
-      throw std::invalid_argument("--figures = distance requires a scenario of several cars");
-    }
-    return campaign;
+    return hlc::campaign::Campaign(choices.plan);
   } catch (const std::runtime_error& error) {
     throw std::invalid_argument(error.what());
   }
-}
-
-void draw(const hlc::campaign::Campaign& campaign, Choices& choices) {
-  if (choices.figures.names.empty()) return;
-  choices.figures.log = [](const std::string& what) {
-    std::cerr << "evaluate: drawing " << what << '\n';
-  };
-  const auto files = hlc::apps::draw_figures(campaign, choices.figures, figure_folder(choices));
-  for (const std::filesystem::path& file : files) std::printf("%s\n", file.c_str());
 }
 
 hlc::apps::EvaluationOrigin origin_of(const std::string& command) {
@@ -188,7 +153,9 @@ int run(Choices choices, const std::string& command) {
   if (!choices.shard.empty()) return conclude(files.rows(), wall_s, "runs.jsonl");
   hlc::apps::write_results(files.rows(), origin_of(command));
   const int code = conclude(files.rows(), wall_s, "runs.csv");
-  draw(campaign, choices);
+  if (choices.writes_series) {
+    hlc::apps::write_series(campaign, choices.drive.jobs, series_folder(choices));
+  }
   if (choices.makes_report) hlc::apps::make_report(choices.out);
   return code;
 }
@@ -237,6 +204,9 @@ void declare_campaign(CLI::App& app, Choices& choices) {
   app.add_flag("--keep_runs", choices.drive.keep_runs,
                "also keep the run folder of each run, OUT/runs/<number>, as run_lab.sh leaves it, "
                "for export_commonroad and summarize");
+  app.add_flag("--series", choices.writes_series,
+               "also writes what figures are drawn from, OUT/series (vehicle_sim/report), also "
+               "later for runs already driven");
   app.add_option("--out", choices.out,
                  "folder for runs.csv (a row per run), cars.csv (a row per run and car), "
                  "campaign.json; an interrupted campaign goes on")
@@ -245,18 +215,6 @@ void declare_campaign(CLI::App& app, Choices& choices) {
                "also makes the page OUT/report.md from the rows: tables, statistics, figures "
                "(vehicle_sim/report; its Python packages are installed once, into "
                "build/report_environment)");
-}
-
-void declare_figures(CLI::App& app, Choices& choices) {
-  std::vector<std::string> figures{kAllFigures};
-  figures.insert(figures.end(), hlc::apps::figure_names().begin(), hlc::apps::figure_names().end());
-  app.add_option("--figures", choices.figures.names,
-                 "SVG files to draw into the folder `figures` of --out, as paths,distance or all")
-      ->delimiter(',')
-      ->check(hlc::apps::among(figures));
-  app.add_option("--pareto_configuration", choices.figures.pareto_configuration,
-                 "automaton configuration for the figure pareto_set; default: "
-                 "../automata/pareto_example.yaml, seen from --scenario_folder");
 }
 
 /// "2/20": the second of 20. Nothing if the text is none.
@@ -283,7 +241,7 @@ void declare_shards(CLI::App& app, Choices& choices) {
                  "alone: for job arrays, each with an --out of its own")
       ->check(hlc::apps::allowing(
           [](const std::string& text) { return shard_of(text).has_value(); }, allowed, allowed))
-      ->excludes(app.get_option("--figures"))
+      ->excludes(app.get_option("--series"))
       ->excludes(app.get_option("--report"));
   CLI::Option* merge =
       app.add_option("--merge", choices.merged,
@@ -295,7 +253,6 @@ void declare_shards(CLI::App& app, Choices& choices) {
 /// The option that replaces all the others that select the runs.
 CLI::Option* declare(CLI::App& app, Choices& choices) {
   declare_campaign(app, choices);
-  declare_figures(app, choices);
   declare_shards(app, choices);
   CLI::Option* sweep = app.add_option(
       "--sweep", choices.sweep,
@@ -304,7 +261,7 @@ CLI::Option* declare(CLI::App& app, Choices& choices) {
   exclude_all_but(app, sweep, {"--jobs", "--out", "--report"});
   app.footer(
       "Exit codes: 0 all runs driven, 1 some failed (reasons in runs.csv), 2 bad input, 3 rows, "
-      "figures, the report or the printed output cannot be written; existing stays.");
+      "series, the report or the printed output cannot be written; existing stays.");
   return sweep;
 }
 
@@ -319,6 +276,7 @@ int main(int argc, char** argv) {
   CLI::Option* sweep = declare(app, choices);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitNotWritten)) return *code;
   choices.is_sweep = sweep->count() > 0;
+  choices.writes_series = choices.writes_series || choices.makes_report;
   choices.drive.shard = shard_of(choices.shard).value_or(hlc::apps::Shard{});
   // A failed run is recorded; any other error concerns an output.
   return hlc::apps::exit_code_of(

@@ -16,7 +16,7 @@ namespace hlc::apps {
 ///                          reads; then a line per run, once driven
 ///     runs.csv, cars.csv   a row per run, and per run and car (row_tables.hpp)
 ///     campaign.json        that first line, and where the rows come from
-///     figures/             what evaluation_figures.hpp draws
+///     series/              what evaluation_series.hpp writes
 ///
 /// A run's record has the keys of summary.json and "run" (its number), "start", "policy" (`none`
 /// for a fixed subgraph), "failure" (null, or why the run does not count) and "figures"

@@ -50,12 +50,11 @@ void set_reference_rule(const SweepValue& value, scenario::Scenario& scenario) {
       value.text == "2022" ? road::half_speed_last : road::mean_speed_first;
 }
 
-}  // namespace
+using Automaton = maneuver_design::AutomatonConfiguration;
+using Value = SweepValue;
 
-const std::vector<SweepSetting>& sweep_settings() {
-  using Automaton = maneuver_design::AutomatonConfiguration;
-  using Value = SweepValue;
-  static const std::vector<SweepSetting> all{
+std::vector<SweepSetting> scenario_settings() {
+  return {
       {kProfileSetting, false, one_of({"default", "2022"}), {}, {}},
       {"coordination", false, one_of({"agreed", "cooperative", "strict"}), {}, set_coordination},
       {"priorities", false, one_of(coordination::priority_strategy_names()), {}, set_priorities},
@@ -68,6 +67,11 @@ const std::vector<SweepSetting>& sweep_settings() {
        {},
        set_contouring_weight},
       {"drivable", false, one_of({"lanes", "everywhere"}), {}, set_drivable},
+  };
+}
+
+std::vector<SweepSetting> automaton_settings() {
+  return {
       {"acceleration_mps2",
        true,
        above(0.0, 1e4),
@@ -93,8 +97,8 @@ const std::vector<SweepSetting>& sweep_settings() {
        false,
        one_of({"trim", "optimised"}),
        [](const Value& value, Automaton& automaton) {
-         automaton.own_steps = value.text == "optimised" ? maneuver_design::OwnSteps::kOptimised
-                                                         : maneuver_design::OwnSteps::kTrim;
+         automaton.self_loops = value.text == "optimised" ? maneuver_design::SelfLoops::kOptimised
+                                                          : maneuver_design::SelfLoops::kTrim;
        },
        {}},
       {"wheelbase_m", true, above(0.0, 100.0), set_wheelbase, {}},
@@ -112,6 +116,12 @@ const std::vector<SweepSetting>& sweep_settings() {
          automaton.vehicle.safety_margin_m = value.number;
        },
        {}},
+  };
+}
+
+/// Which a sweep applies itself.
+std::vector<SweepSetting> other_settings() {
+  return {
       // One automaton with every edge serves all choices of trims.
       {kTrimsSetting,
        false,
@@ -123,7 +133,19 @@ const std::vector<SweepSetting>& sweep_settings() {
       {kVehicleSetting, false, one_of({"identified", kExactVehicle}), {}, {}},
       {kLapSetting, false, one_of({"standing", "flying"}), {}, {}},
   };
-  return all;
+}
+
+}  // namespace
+
+const std::vector<SweepSetting>& sweep_settings() {
+  static const std::vector<SweepSetting> kAll = [] {
+    std::vector<SweepSetting> all = scenario_settings();
+    for (const auto& more : {automaton_settings(), other_settings()}) {
+      all.insert(all.end(), more.begin(), more.end());
+    }
+    return all;
+  }();
+  return kAll;
 }
 
 }  // namespace hlc::campaign

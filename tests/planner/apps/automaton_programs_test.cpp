@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "planner/maneuver_design/automaton_builder.hpp"
+#include "tests/planner/apps/deployed_program.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -21,6 +22,7 @@ namespace hlc::apps {
 namespace {
 
 namespace fs = std::filesystem;
+using test::DeployedProgram;
 using test::Outcome;
 using test::run_program;
 
@@ -116,24 +118,37 @@ TEST_F(AutomatonPrograms, TheTableHasOneRowPerEdgeAndLabelInFullPrecision) {
   EXPECT_EQ(rows, 2 * (6 + 4 + 2U));  // chain 1 3 2 4: 6 and 4; C adds 3-4 both ways
 }
 
-TEST_F(AutomatonPrograms, ThePlotHasAnArrowPerPairAndLabelWithADoubleHeadWhereBothDirectionsExist) {
-  ASSERT_EQ(build("--plot " + path("automaton.svg")).exit_code, 0);
-  const std::string plot = text_of("automaton.svg");
-  const auto count = [&plot](const std::string& piece) {
-    std::size_t times = 0;
-    for (std::size_t at = plot.find(piece); at != std::string::npos;
-         at = plot.find(piece, at + 1)) {
-      ++times;
-    }
-    return times;
-  };
-  for (const char* text :
-       {"steering angle [rad]", "speed [m/s]", "optimal for J2", "optimal for J3"}) {
-    EXPECT_EQ(count(text), 1U) << text;
+TEST_F(AutomatonPrograms, TheDrawingHasEveryTrimAndManeuver) {
+  const DeployedProgram program("build_automaton");
+  const std::string flags = path("car.yaml") + " --out " + path("automaton.yaml");
+  const Outcome done = program.run(flags);
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  EXPECT_EQ(program.kind(), "automaton");
+  const nlohmann::json drawn = program.drawn();
+  EXPECT_EQ(drawn["labels"], (nlohmann::json{"J2", "J3"}));
+  EXPECT_EQ(drawn["trims"].size(), 4U);
+  EXPECT_EQ(drawn["maneuvers"].size(), 2 * 12U);  // six pairs in both directions
+  for (const nlohmann::json& maneuver : drawn["maneuvers"]) {
+    EXPECT_NE(maneuver["from"], maneuver["to"]);
+    EXPECT_LE(maneuver["to"], 4);
   }
-  EXPECT_EQ(count("<polygon fill=\"#d62728\""), 12U);  // J2: six pairs, a head at both ends
-  EXPECT_EQ(count("<polygon fill=\"#2ca02c\""), 12U);
-  EXPECT_EQ(count("#1f4fd8"), 0U);  // no J1
+}
+
+TEST_F(AutomatonPrograms, WhatIsNotDrawnIsOneLineWithExitCode3AndTheAutomatonIsWritten) {
+  const DeployedProgram program("build_automaton");
+  const std::string flags = path("car.yaml") + " --out " + path("automaton.yaml");
+  program.put_script("echo no packages >&2; exit 3");
+  const Outcome without = program.run(flags);
+  EXPECT_EQ(without.exit_code, 3);
+  EXPECT_NE(without.output.find("no packages\n"), std::string::npos) << without.output;
+  EXPECT_EQ(std::ranges::count(without.output, '\n'), 2) << without.output;  // and the counts
+  EXPECT_FALSE(std::filesystem::exists(program.plot()));
+  program.remove_script();
+  const Outcome missing = program.run(flags);
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_NE(missing.output.find("report/draw.sh is missing, must be beside"), std::string::npos);
+  EXPECT_EQ(std::ranges::count(missing.output, '\n'), 2) << missing.output;
+  EXPECT_FALSE(text_of("automaton.yaml").empty());
 }
 
 TEST_F(AutomatonPrograms, BadInputIsOneLineWithExitCode2AndLeavesTheOldFileAlone) {

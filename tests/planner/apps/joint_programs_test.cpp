@@ -1,7 +1,6 @@
 // plan_problem with joint problems, and price_of_priority, as they are called.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tinyxml2.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "planner/common/csv.hpp"
+#include "tests/planner/apps/deployed_program.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -63,17 +63,17 @@ TEST(JointPrograms, PlanProblemSolvesAJointProblem) {
   EXPECT_LE(hurried["lower_bound"], json["cost"]);
 }
 
-TEST(JointPrograms, ThePictureShowsEachVehicle) {
-  const test::TemporaryFolder folder;
-  const std::string plot = (folder / "plan.svg").string();
-  const Outcome outcome = run_program("plan_problem " + kCrossing + " --plot " + plot);
+TEST(JointPrograms, TheDrawingHasEachVehicle) {
+  const test::DeployedProgram program("plan_problem");
+  const Outcome outcome = program.run(kCrossing);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   for (const char* text : {"status           optimal", "best order", "jointly", "alone"}) {
     EXPECT_THAT(outcome.output, HasSubstr(text));
   }
-  tinyxml2::XMLDocument picture;
-  EXPECT_EQ(picture.LoadFile(plot.c_str()), tinyxml2::XML_SUCCESS);
-  EXPECT_THAT(text_of(plot), HasSubstr("Joint planning problem: 2 vehicles"));
+  const nlohmann::json vehicles = program.drawn()["vehicles"];
+  ASSERT_EQ(vehicles.size(), 2U);
+  EXPECT_EQ(vehicles[1]["poses"].size(), 8U);
+  EXPECT_NE(vehicles[0]["start"], vehicles[1]["start"]);
 }
 
 TEST(JointPrograms, BadInputIsOneLineAndExitCode2) {

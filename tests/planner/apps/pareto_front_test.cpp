@@ -10,6 +10,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/planner/apps/deployed_program.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -34,10 +35,10 @@ class ParetoFrontProgram : public testing::Test {
   const TemporaryFolder folder_;
 };
 
-TEST_F(ParetoFrontProgram, WritesTheFrontAsATableAndAsAPlot) {
+TEST_F(ParetoFrontProgram, WritesTheFrontAsATableAndDrawsIt) {
+  const DeployedProgram program("pareto_front");
   const auto [code, output] =
-      run_program("pareto_front " + kExample + " --intervals 20 --points 7 --out " +
-                  path("front.csv") + " --plot " + path("front.svg"));
+      program.run(kExample + " --intervals 20 --points 7 --out " + path("front.csv"));
   ASSERT_EQ(code, 0) << output;
   EXPECT_NE(output.find("knee"), std::string::npos);
   EXPECT_NE(output.find("hypervolume"), std::string::npos);
@@ -62,25 +63,33 @@ TEST_F(ParetoFrontProgram, WritesTheFrontAsATableAndAsAPlot) {
   EXPECT_TRUE(std::ranges::is_sorted(j1, std::greater{}));
   EXPECT_EQ(knees, 1);
 
-  const std::string plot = text_of(path("front.svg"));
-  EXPECT_TRUE(plot.starts_with("<svg")) << plot.substr(0, 40);
-  for (const char* text : {"Pareto front", "Positions", "Orientations", "Inputs: acceleration",
-                           "Inputs: steering rate", "s_x [m]", "psi [rad]", "knee"}) {
-    EXPECT_NE(plot.find(text), std::string::npos) << text;
+  EXPECT_EQ(program.kind(), "pareto");
+  const nlohmann::json drawn = program.drawn();
+  EXPECT_EQ(drawn["criteria"], (nlohmann::json{"J1", "J2"}));
+  EXPECT_EQ(drawn["to"], (nlohmann::json{2.3, 0.62}));
+  EXPECT_EQ(drawn["duration_s"][0], drawn["duration_s"][1]);
+  ASSERT_EQ(drawn["points"].size(), j1.size());
+  for (std::size_t i = 0; i < j1.size(); ++i) {
+    const nlohmann::json& point = drawn["points"][i];
+    EXPECT_EQ(point["objectives"][0], j1[i]);
+    EXPECT_EQ(point["is_converged"], true);
+    EXPECT_EQ(point["inputs"].size(), 20U);
+    EXPECT_EQ(point["states"].size(), 21U);
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 2)
+  EXPECT_GT(drawn["weighted_sums"].size(), 2U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1)
       << "something else was left";
 }
 
 TEST_F(ParetoFrontProgram, TheSameInputGivesTheSameBytes) {
-  const std::string command = "pareto_front " + kExample + " --intervals 10 --points 4 --out " +
-                              path("front.csv") + " --plot " + path("front.svg");
-  ASSERT_EQ(run_program(command).exit_code, 0);
+  const DeployedProgram program("pareto_front");
+  const std::string flags = kExample + " --intervals 10 --points 4 --out " + path("front.csv");
+  ASSERT_EQ(program.run(flags).exit_code, 0);
   const std::string table = text_of(path("front.csv"));
-  const std::string plot = text_of(path("front.svg"));
-  ASSERT_EQ(run_program(command).exit_code, 0);
+  const std::string plot = text_of(program.plot());
+  ASSERT_EQ(program.run(flags).exit_code, 0);
   EXPECT_EQ(text_of(path("front.csv")), table);
-  EXPECT_EQ(text_of(path("front.svg")), plot);
+  EXPECT_EQ(text_of(program.plot()), plot);
 }
 
 TEST_F(ParetoFrontProgram, RefusesBadInputInOneLineWithCodeTwoAndLeavesTheFileThatWasThere) {
@@ -135,11 +144,12 @@ TEST_F(ParetoFrontProgram, RefusesBadInputInOneLineWithCodeTwoAndLeavesTheFileTh
 }
 
 TEST_F(ParetoFrontProgram, AFreeDurationIsChosenWithinItsBoundsAndTold) {
+  const DeployedProgram program("pareto_front");
   const auto [code, output] =
-      run_program("pareto_front " + kExample +
+      program.run(kExample +
                   " --intervals 10 --points 4 --criteria travel_time J2 --free_duration 0.15 0.4 "
                   "--out " +
-                  path("front.csv") + " --plot " + path("front.svg"));
+                  path("front.csv"));
   ASSERT_EQ(code, 0) << output;
   std::istringstream table(text_of(path("front.csv")));
   std::string line;
@@ -159,7 +169,7 @@ TEST_F(ParetoFrontProgram, AFreeDurationIsChosenWithinItsBoundsAndTold) {
   EXPECT_NEAR(durations_s.front(), 0.4, 1e-9);  // soft inputs take all the time that there is
   EXPECT_NEAR(durations_s.back(), 0.15, 1e-9);
   EXPECT_TRUE(std::ranges::is_sorted(durations_s, std::greater{}));
-  EXPECT_NE(text_of(path("front.svg")).find("in 0.15 ... 0.4 s"), std::string::npos);
+  EXPECT_EQ(program.drawn()["duration_s"], (nlohmann::json{0.15, 0.4}));
 }
 
 TEST_F(ParetoFrontProgram, TakesNegativeSteeringAndOtherCriteria) {

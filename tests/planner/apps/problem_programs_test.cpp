@@ -1,7 +1,6 @@
 // plan_problem, propose_budget and ompl_example as they are called.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tinyxml2.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/planner/apps/deployed_program.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -20,6 +20,7 @@ namespace hlc::apps {
 namespace {
 
 namespace fs = std::filesystem;
+using test::DeployedProgram;
 using test::Outcome;
 using test::run_program;
 using testing::HasSubstr;
@@ -138,19 +139,26 @@ TEST_F(ProblemPrograms, TheNameOfAFileStaysInOneLine) {
             "plan_problem: /no\\nwhere\\x1b[31m: cannot be read, must be a JSON file\n");
 }
 
-TEST_F(ProblemPrograms, ThePlotIsAPictureThatExplainsItself) {
-  for (const std::string& problem : {kShipped, infeasible()}) {
-    const std::string plot = (folder_ / "plan.svg").string();
-    run_program("plan_problem " + problem + " --plot " + plot);
-    tinyxml2::XMLDocument document;
-    ASSERT_EQ(document.LoadFile(plot.c_str()), tinyxml2::XML_SUCCESS);
-    std::stringstream text;
-    text << std::ifstream(plot).rdbuf();
-    for (const char* word :
-         {"x [m]", "y [m]", "reference point", "boundary", "swept area", "Planning problem"}) {
-      EXPECT_THAT(text.str(), HasSubstr(word));
-    }
+TEST_F(ProblemPrograms, TheDrawingHasTheProblemAndItsPlanOrTheReason) {
+  const DeployedProgram program("plan_problem");
+  ASSERT_EQ(program.run(kShipped).exit_code, 0);
+  EXPECT_EQ(program.kind(), "problem");
+  const nlohmann::json drawn = program.drawn();
+  const auto plan = json_of(kShipped);
+  EXPECT_EQ(drawn["status"], plan["status"]);
+  EXPECT_EQ(drawn["cost_m2"], plan["cost"]);
+  ASSERT_EQ(drawn["vehicles"].size(), 1U);
+  const nlohmann::json& vehicle = drawn["vehicles"][0];
+  EXPECT_EQ(vehicle["poses"], plan["poses"]);
+  for (const char* of_each_step : {"reference", "obstacles", "swept"}) {
+    EXPECT_EQ(vehicle[of_each_step].size(), drawn["horizon_steps"]) << of_each_step;
   }
+  EXPECT_GT(vehicle["boundary"].size(), 0U);
+  EXPECT_EQ(program.run(infeasible()).exit_code, 1);
+  EXPECT_EQ(program.drawn()["reason"], "infeasible");
+  EXPECT_EQ(program.drawn()["vehicles"][0]["poses"].size(), 0U);
+  program.remove_script();
+  EXPECT_EQ(program.run(kShipped).exit_code, 3);
 }
 
 TEST_F(ProblemPrograms, TheTreeIsAPageOfThePlanThatThePlainEngineFinds) {

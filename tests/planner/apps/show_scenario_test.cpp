@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "tests/planner/apps/deployed_program.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -18,15 +19,14 @@ const std::string kScenario =
     test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml";
 
 TEST(ShowScenario, DrawsTheScenarioWhereAskedTo) {
-  const TemporaryFolder folder;
-  const std::string plot = (folder / "scenario.svg").string();
-  const Outcome done = run_program("show_scenario --scenario " + kScenario + " --plot " + plot);
+  const DeployedProgram program("show_scenario");
+  const Outcome done = program.run("--scenario " + kScenario);
   EXPECT_EQ(done.exit_code, 0) << done.output;
   EXPECT_THAT(done.output, HasSubstr("green"));
-  std::stringstream text;
-  text << std::ifstream(plot).rdbuf();
-  EXPECT_TRUE(text.str().starts_with("<svg"));
-  EXPECT_THAT(text.str(), HasSubstr(">vehicle 3: green<"));
+  EXPECT_EQ(program.kind(), "scenario");
+  EXPECT_EQ(program.drawn()["vehicles"][2]["name"], "green");
+  EXPECT_EQ(program.run("--scenario " + kScenario + " --starts").exit_code, 0);
+  EXPECT_EQ(program.kind(), "sheet");
 }
 
 TEST(ShowScenario, DoesNotDrawOverAFileThatTheScenarioNames) {

@@ -299,18 +299,18 @@ TEST(AutomatonBuilder, AllEdgesAreThePairsThatTheLimitsAllow) {
   }
 }
 
-/// The paper's configuration with one label, and own steps that are optimal for it.
-AutomatonConfiguration with_optimised_own_steps(const std::string& label) {
+/// The paper's configuration with one label, and self-loops that are optimal for it.
+AutomatonConfiguration with_optimised_self_loops(const std::string& label) {
   AutomatonConfiguration configuration = automaton::shipped_configuration();
   const auto subgraph = std::ranges::find_if(
       configuration.subgraphs, [&](const auto& one) { return one.labels == std::vector{label}; });
   configuration = needed_by(*subgraph, configuration);
-  configuration.own_steps = OwnSteps::kOptimised;
+  configuration.self_loops = SelfLoops::kOptimised;
   return configuration;
 }
 
-TEST(AutomatonBuilder, OwnStepsOfMovingTrimsCanBeOptimalLikeEveryOtherEdge) {
-  const AutomatonConfiguration configuration = with_optimised_own_steps("J1");
+TEST(AutomatonBuilder, SelfLoopsOfMovingTrimsCanBeOptimalLikeEveryOtherEdge) {
+  const AutomatonConfiguration configuration = with_optimised_self_loops("J1");
   const auto automaton = build_shared_automaton(configuration);
   const automaton::Subgraph subgraph(automaton, configuration.subgraphs.front());
   for (std::size_t i = 0; i < automaton->trims.size(); ++i) {
@@ -343,7 +343,7 @@ TEST(AutomatonBuilder, UnderASpeedLimitAnOwnStepThatIsTooFastIsTheTrimItself) {
   AutomatonConfiguration configuration = automaton::shipped_configuration();
   configuration.subgraphs.front().labels = {"J1", "J2"};
   configuration = needed_by(configuration.subgraphs.front(), configuration);
-  configuration.own_steps = OwnSteps::kOptimised;
+  configuration.self_loops = SelfLoops::kOptimised;
   automaton::UniversalAutomaton built = build_automaton(configuration);
   // Only the fast ones are left.
   std::erase_if(built.maneuvers,
@@ -353,12 +353,12 @@ TEST(AutomatonBuilder, UnderASpeedLimitAnOwnStepThatIsTooFastIsTheTrimItself) {
   const automaton::Subgraph subgraph(
       std::make_shared<const automaton::UniversalAutomaton>(std::move(built)), spec);
   for (const TrimId trim : subgraph.trims()) {
-    std::vector<std::string> own_steps;
+    std::vector<std::string> held;
     for (const automaton::Edge& edge : subgraph.successors(trim)) {
-      if (edge.to == trim) own_steps.push_back(edge.maneuver->label);
+      if (edge.to == trim) held.push_back(edge.maneuver->label);
       EXPECT_LE(automaton::top_speed_mps(*edge.maneuver), 0.82 + 1e-6);
     }
-    EXPECT_EQ(own_steps, std::vector{automaton::kSelfLoopLabel}) << trim.index + 1;
+    EXPECT_EQ(held, std::vector{automaton::kSelfLoopLabel}) << trim.index + 1;
   }
 }
 

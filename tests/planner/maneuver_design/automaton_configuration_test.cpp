@@ -350,7 +350,7 @@ horizon_steps: 4
 )";
   const AutomatonConfiguration c = read(text);
   EXPECT_EQ(c.edges, EdgeChoice::kAll);
-  EXPECT_EQ(c.own_steps, OwnSteps::kOptimised);
+  EXPECT_EQ(c.self_loops, SelfLoops::kOptimised);
   EXPECT_EQ(c.horizon_steps, 4U);
   ASSERT_EQ(c.subgraphs.size(), 2U);
   const automaton::SubgraphSpec& s = c.subgraphs[1];

@@ -128,11 +128,5 @@ TEST(SvgPlot, TheLegendOfAllPanelsGetsRowsAsItNeeds) {
   EXPECT_LT(height(few), height(many));
 }
 
-TEST(SvgPlot, ColoursRunFromRedToBlue) {
-  EXPECT_EQ(red_to_blue(0.0), "#d61e23");
-  EXPECT_EQ(red_to_blue(1.0), "#1446d7");
-  EXPECT_EQ(red_to_blue(-3.0), red_to_blue(0.0));
-}
-
 }  // namespace
 }  // namespace hlc::plot

@@ -158,7 +158,7 @@ TEST_F(EvaluateShards, FlagsOutOfBoundsAreRefused) {
     EXPECT_EQ(outcome.exit_code, 2) << shard;
     EXPECT_THAT(outcome.output, HasSubstr("must be I/N, 1 <= I <= N <= 100000")) << shard;
   }
-  EXPECT_THAT(evaluate("--shard 1/2 --figures all", "out").output, EndsWith("excludes --shard\n"));
+  EXPECT_THAT(evaluate("--shard 1/2 --series", "out").output, EndsWith("excludes --shard\n"));
   EXPECT_THAT(evaluate("--shard 1/2 --report", "out").output, HasSubstr("excludes"));
   EXPECT_THAT(evaluate("--merge rows.jsonl", "out").output, HasSubstr("excludes"));
 }

@@ -196,11 +196,11 @@ TEST_F(Evaluate, RefusesAFolderInWhichSomebodyElseWrote) {
     EXPECT_EQ(text_of(out_ / "runs.jsonl"), damaged);
   }
   put(out_ / "runs.jsonl", before);
-  put(out_ / "figures", "a file");
-  const Outcome no_folder = evaluate("--figures error");
+  put(out_ / "series", "a file");
+  const Outcome no_folder = evaluate("--series");
   EXPECT_EQ(no_folder.exit_code, 2);
-  EXPECT_THAT(no_folder.output, HasSubstr("figures must be a folder"));
-  EXPECT_EQ(text_of(out_ / "figures"), "a file");
+  EXPECT_THAT(no_folder.output, HasSubstr("series must be a folder"));
+  EXPECT_EQ(text_of(out_ / "series"), "a file");
 }
 
 TEST_F(Evaluate, SharesOfTheWallTimeAreInTheRecords) {
@@ -217,29 +217,30 @@ TEST_F(Evaluate, SharesOfTheWallTimeAreInTheRecords) {
   }
 }
 
-TEST_F(Evaluate, DrawsTheFiguresThatAreAskedForAlsoLater) {
+TEST_F(Evaluate, WritesTheSeriesOfTheFiguresAlsoLater) {
   ASSERT_EQ(evaluate("").exit_code, 0);
-  EXPECT_FALSE(std::filesystem::exists(out_ / "figures"));
-  const Outcome later = evaluate("--figures scenario,paths");
+  EXPECT_FALSE(std::filesystem::exists(out_ / "series"));
+  const Outcome later = evaluate("--series --jobs 2");
   EXPECT_EQ(later.exit_code, 0) << later.output;
   EXPECT_THAT(later.output, HasSubstr("4 of 4 runs already driven"));
   std::set<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(out_ / "figures")) {
+  for (const auto& entry : std::filesystem::directory_iterator(out_ / "series")) {
     files.insert(entry.path().filename());
   }
-  EXPECT_EQ(files, (std::set<std::string>{"scenario_paper_red_alone.svg",
-                                          "paths_paper_red_alone_default.svg"}));
-}
-
-TEST_F(Evaluate, DrawsThePapersFiguresOfTheAutomaton) {
-  const std::string automata = test::source_folder() + "/launch_scripts/automata/";
-  const Outcome done = evaluate("--figures automaton");
-  ASSERT_EQ(done.exit_code, 0) << done.output;
-  EXPECT_THAT(text_of(out_ / "figures" / "automaton_paper.svg"), HasSubstr("12 trims"));
-  const Outcome unread =
-      evaluate("--figures pareto_set --pareto_configuration " + automata + "nowhere.yaml");
-  EXPECT_EQ(unread.exit_code, 2);
-  EXPECT_THAT(unread.output, HasSubstr("nowhere.yaml"));
+  EXPECT_EQ(files,
+            (std::set<std::string>{"steps.csv", "drives.csv", "distances.csv", "places.json"}));
+  const std::string steps = text_of(out_ / "series" / "steps.csv");
+  EXPECT_EQ(std::ranges::count(steps, '\n'), 1 + 4 * 20);
+  const auto places = nlohmann::json::parse(text_of(out_ / "series" / "places.json"));
+  ASSERT_EQ(places["runs"].size(), 4U);
+  EXPECT_EQ(places["runs"][3]["subgraph"], "D");
+  EXPECT_EQ(places["runs"][3]["start"], 1);
+  EXPECT_EQ(places["runs"][3]["fault"], "");
+  ASSERT_EQ(places["scenarios"].size(), 1U);
+  const nlohmann::json& scenario = places["scenarios"][0];
+  EXPECT_EQ(scenario["vehicles"].size(), 1U);
+  EXPECT_GT(scenario["lanelets"].size(), 10U);
+  EXPECT_GT(scenario["vehicles"][0]["path"]["length_m"], 1.0);
 }
 
 // The simulated vehicles are model cars: they cannot follow the plans of full-size ones.
@@ -294,11 +295,7 @@ TEST_F(Evaluate, NamesWhatItDoesNotKnow) {
                                        {"--cars 3", "--cars"},
                                        {"--routes some", "--routes"},
                                        {"--noise_seed 99999999999999999999999", "--noise_seed"},
-                                       {"--figures path", "--figures"},
-                                       {"--figures distance --scenario paper_red_alone",
-                                        "--figures = distance requires a scenario of several"},
-                                       {"--figures paths --pareto_configuration x.yaml",
-                                        "--pareto_configuration = x.yaml requires"},
+                                       {"--figures paths", "--figures"},
                                        {"--unheard_of", "unheard_of"}}) {
     const Outcome outcome =
         run_program(std::string("evaluate --out ") + out_.string() + kScenarios + " " + flags);
@@ -386,14 +383,16 @@ TEST_F(EvaluatePolicies, AreRefusedByTheirFlagWithThoseThatThereAre) {
   }
 }
 
-TEST_F(EvaluatePolicies, RunFoldersSayWhichOneDroveAndFiguresShowIt) {
-  ASSERT_EQ(drive("--policies zone --keep_runs --figures subgraphs").exit_code, 0);
+TEST_F(EvaluatePolicies, RunFoldersAndSeriesNameTheOneThatDrove) {
+  ASSERT_EQ(drive("--policies zone --keep_runs --series").exit_code, 0);
   for (const auto& [run, policy] : {std::pair{"0", "none"}, {"1", "zone"}}) {
     EXPECT_THAT(text_of(out_ / "runs" / run / "configuration" / "flags.yaml"),
                 HasSubstr(std::string("policy: \"") + policy + "\"\n"));
   }
-  EXPECT_THAT(text_of(out_ / "figures" / "subgraphs_reconfiguration_default.svg"),
-              HasSubstr(">policy zone, blue<"));
+  EXPECT_THAT(text_of(out_ / "series" / "steps.csv"),
+              HasSubstr("\n1,reconfiguration,default,J2,zone,0,"));
+  const auto places = nlohmann::json::parse(text_of(out_ / "series" / "places.json"));
+  EXPECT_EQ(places["scenarios"][0]["zones"]["zone"][0]["max_speed_mps"], 0.6);
 }
 
 TEST_F(Evaluate, KeepsRunFoldersThatTheExportAndTheSummaryRead) {

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Draws for the programs of the planner. Lies in vehicle_sim/report of the sources, or in report beside the programs.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+
+usage() {
+  cat <<'TEXT'
+usage: draw.sh KIND DATA OUT
+Draws what a program of the planner wrote (build_automaton, pareto_front, plan_problem, show_scenario --plot).
+  KIND  automaton, pareto, problem, scenario or sheet
+  DATA  JSON
+  OUT   SVG, PDF or PNG by its extension, otherwise SVG
+Exit codes: 0 drawn, 2 invalid input, 3 Python's packages are missing, or OUT cannot be written
+TEXT
+}
+
+[[ ${1:-} != -h && ${1:-} != --help ]] || { usage; exit 0; }
+(($# == 3)) || { echo "draw.sh: $# values, must be KIND DATA OUT (see --help)" >&2; exit 2; }
+if [[ -e $here/../../launch_scripts/python_environment.sh ]]; then
+  make=$here/../../launch_scripts/python_environment.sh environment=$here/../../build/report_environment
+else
+  make=$here/python_environment.sh environment=$here/../report_environment
+fi
+if ! reason=$("$make" "$environment" "$here/requirements.txt" 2>&1); then
+  echo "draw.sh: $3 is not drawn, Python's packages of $here/requirements.txt are missing: ${reason##*$'\n'}" >&2
+  exit 3
+fi
+PYTHONPATH=$(dirname "$here") PYTHONDONTWRITEBYTECODE=1 exec "$environment/bin/python" -m report.draw "$@"
