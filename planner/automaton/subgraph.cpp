@@ -14,7 +14,6 @@ namespace hlc::automaton {
 namespace {
 
 constexpr double kRounding_mps = 1e-6;  // of the states of maneuvers (maneuver_check)
-
 template <class T>
 bool holds(const std::vector<T>& list, const T& value) {
   return std::find(list.begin(), list.end(), value) != list.end();
@@ -174,9 +173,8 @@ void Subgraph::fail(const std::string& reason) const {
 }
 
 void Subgraph::check_trim(TrimId trim) const {
-  const std::size_t count = automaton_->trims.size();
-  if (trim.index < count) return;
-  fail(fmt::format("trim {}, must be in 1 ... {}", trim, count));
+  if (trim.index < automaton_->trims.size()) return;
+  fail(fmt::format("trim {}, must be in 1 ... {}", trim, automaton_->trims.size()));
 }
 
 void Subgraph::check_labels(const std::vector<std::string>& labels) const {
@@ -230,9 +228,8 @@ void Subgraph::switch_trims_on() {
                               [&trims](TrimId trim) { return trims[trim.index].is_equilibrium(); });
 }
 
-/// The labels of an edge between enabled trims. That of a trim to itself has those of the maneuvers
-/// back to it that the automaton holds and the speed limit admits, and is its self-loop without
-/// any.
+/// The labels of an edge between enabled trims; from a trim to itself those of the maneuvers that
+/// the speed limit admits, or that of its self-loop.
 std::vector<std::string> Subgraph::held_labels(
     const TrimPair& edge, const std::vector<const Maneuver*>& maneuvers) const {
   std::vector<std::string> labels = labels_of(spec_, edge);
