@@ -21,24 +21,27 @@ std::vector<TimedPoint> points_of(const Maneuver& maneuver, double interval_s,
   return points;
 }
 
+/// Empty if the lab accepts the maneuver.
+std::string lab_fault(const Maneuver& m, const vehicle::LabLimits& limits,
+                      const vehicle::VehicleParameters& vehicle) {
+  const auto found = vehicle::curve_fault(points_of(m, limits.point_interval_s, vehicle), limits);
+  if (!found) return "";
+  const std::string who = m.is_self_loop()
+                              ? fmt::format("trim {}", m.from)
+                              : fmt::format("maneuver {} ({})", TrimPair{m.from, m.to}, m.label);
+  return who + ": " + vehicle::to_text(*found, limits);
+}
+
 }  // namespace
 
 std::string validate_for_lab(const Subgraph& subgraph, const vehicle::LabLimits& limits) {
-  const UniversalAutomaton& automaton = subgraph.automaton();
   // Trims first: a fault of a trim explains those of its maneuvers.
   for (const bool self_loops : {true, false}) {
     for (const TrimId trim : subgraph.start_trims()) {
       for (const Edge& edge : subgraph.successors(trim)) {
-        const Maneuver& m = *edge.maneuver;
-        if (m.is_self_loop() != self_loops) continue;
-        const std::vector<TimedPoint> points =
-            points_of(m, limits.point_interval_s, automaton.vehicle);
-        const auto found = vehicle::curve_fault(points, limits);
-        if (!found) continue;
-        const std::string who =
-            self_loops ? fmt::format("trim {}", trim)
-                       : fmt::format("maneuver {} ({})", TrimPair{m.from, m.to}, m.label);
-        return who + ": " + vehicle::to_text(*found, limits);
+        if (edge.maneuver->is_self_loop() != self_loops) continue;
+        std::string fault = lab_fault(*edge.maneuver, limits, subgraph.automaton().vehicle);
+        if (!fault.empty()) return fault;
       }
     }
   }

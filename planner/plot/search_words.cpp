@@ -92,7 +92,7 @@ std::string cost_text(double cost_m2) { return fmt::format("{:.6g}", cost_m2); }
 
 std::string name_of(const automaton::Maneuver& maneuver) {
   return maneuver.is_self_loop() ? fmt::format("trim {} kept", maneuver.to)
-                                      : fmt::format("{} to trim {}", maneuver.label, maneuver.to);
+                                 : fmt::format("{} to trim {}", maneuver.label, maneuver.to);
 }
 
 std::string problem_line(const scenario::ProblemFile& file) {

@@ -30,7 +30,7 @@ class Tradeoff(unittest.TestCase):
 
     def test_reference_points_are_these_constants(self) -> None:
         self.assertEqual({key: one.value for key, one in REFERENCE.items()},
-                         {"lap_s": 30.0, "driven_error_mean_mm": 60.0, "effort_per_m": 50.0, "comfort_per_m": 50.0})
+                         {"lap_s": 32.0, "driven_error_mean_mm": 60.0, "effort_per_m": 50.0, "comfort_per_m": 50.0})
         text = tradeoff_markdown(frame(THREE))
         for one in REFERENCE.values():
             self.assertIn(f"{one.value:g} ({one.why})", text)
@@ -38,21 +38,21 @@ class Tradeoff(unittest.TestCase):
     def test_hypervolumes_are_areas_up_to_the_reference_point(self) -> None:
         fronts = self.fronts(THREE)
         # From (10, 10) and (20, 2) to (30, 50): 20 x 40 + 10 x 8. The policy adds 8 x 7 left of 20.
-        self.assertEqual(fronts["fast none"].fixed, 880.0)
-        self.assertEqual(fronts["slow mixed"]["with"], 880.0 + 8.0 * 7.0)
-        self.assertEqual(fronts["slow mixed"].own, 18.0 * 47.0)
+        self.assertEqual(fronts["fast none"].fixed, 976.0)
+        self.assertEqual(fronts["slow mixed"]["with"], 976.0 + 8.0 * 7.0)
+        self.assertEqual(fronts["slow mixed"].own, 20.0 * 47.0)
         self.assertTrue(all(one.not_dominated for one in fronts.values()))
-        self.assertIn("| lap [s], effort per m | fast, slow, policy mixed | - | 880.000 | 1.064 |",
+        self.assertIn("| lap [s], effort per m | fast, slow, policy mixed | - | 976.000 | 1.057 |",
                       tradeoff_markdown(frame(THREE)))
 
     def test_a_row_beyond_the_reference_point_has_volume_0_and_is_marked(self) -> None:
         runs = THREE + [row("wild", "none", 9.0, 50.0), row("slow", "wild", 9.0, 151.0)]
         fronts = self.fronts(runs)
         for name in ("wild none", "slow wild"):
-            self.assertEqual((fronts[name].is_beyond, fronts[name].own, fronts[name]["with"]), (True, 0.0, 880.0))
+            self.assertEqual((fronts[name].is_beyond, fronts[name].own, fronts[name]["with"]), (True, 0.0, 976.0))
         self.assertFalse(fronts["fast none"].is_beyond)
         text = tradeoff_markdown(frame(runs))
-        self.assertIn("| lap [s], effort per m | fast, slow, policy mixed, wild | wild, policy wild | 880.000 | 1.064 "
+        self.assertIn("| lap [s], effort per m | fast, slow, policy mixed, wild | wild, policy wild | 976.000 | 1.057 "
                       "| 1.000 (>) |", text)
 
     def test_a_further_row_changes_no_volume_of_the_others(self) -> None:
@@ -86,7 +86,7 @@ class Tradeoff(unittest.TestCase):
         self.assertIn("| slow | 20.00", text)
         within = self.fronts(THREE, "within_limits")
         self.assertEqual(sorted(within), ["slow mixed", "slow none"])
-        self.assertEqual(within["slow none"].fixed, 10.0 * 48.0)
+        self.assertEqual(within["slow none"].fixed, 12.0 * 48.0)
         one_of_two = [row("A", "none", 10.0, 1.0, 0.0), row("A", "none", 10.0, 1.0, 0.1)]
         self.assertIn("| A (!) |", tradeoff_markdown(frame(one_of_two)))
         self.assertNotIn("keep the limits", tradeoff_markdown(frame([row("A", "none", 10.0, 1.0)])))
@@ -94,7 +94,7 @@ class Tradeoff(unittest.TestCase):
     def test_without_a_fixed_one_that_keeps_the_limits_volumes_are_absolute(self) -> None:
         runs = [row("fast", "none", 10.0, 10.0, 0.5), row("fast", "zone", 12.0, 3.0, 0.0)]
         within = tradeoff_markdown(frame(runs)).partition("### Rows that keep the limits")[2]
-        self.assertIn("| policy zone | - | 0.000 | 846.000 (of none) |", within)
+        self.assertIn("| policy zone | - | 0.000 | 940.000 (of none) |", within)
 
     def test_states_what_a_policy_planned_on(self) -> None:
         one = row("A", "zone", 15.0, 1.0) | {"share.A": 0.5, "share.A, at most 0.4 m/s": 0.5, "share.B|C": np.nan}
