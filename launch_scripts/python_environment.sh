@@ -41,12 +41,17 @@ mkdir -p "$(dirname "$dir")" || exit 2
 exec {lock}>"$dir.lock" || exit 2
 flock -w 600 "$lock" || fail 4 "timeout of another installation"
 [[ $(cat "$dir/installed" 2>/dev/null) != "$wanted" ]] || exit 0
-rm -rf "$dir"
-timeout 300 python3 -m venv "$dir" >"$log" 2>&1 || fail 4 "python3 -m venv failed in $dir"
-pip=("$dir/bin/python" -m pip --disable-pip-version-check --no-input --retries 1 --timeout 15)
+# An older environment stays until the new one is whole.
+fresh=$(mktemp -d "$dir.XXXXXX") || exit 2
+trap 'rm -rf "$log" "$fresh"' EXIT
+timeout 300 python3 -m venv "$fresh" >"$log" 2>&1 || fail 4 "python3 -m venv failed in $fresh"
+pip=("$fresh/bin/python" -m pip --disable-pip-version-check --no-input --retries 1 --timeout 15)
 install=(install --quiet --only-binary :all: --no-deps)
 first=$(grep -m 1 == "$requirements")
 timeout 120 "${pip[@]}" "${install[@]}" "$first" >"$log" 2>&1 || fail 3 "skipped, PyPI not reachable"
 echo "python_environment.sh: installing the packages of $(basename "$(dirname "$requirements")") into $dir" >&2
 timeout 400 "${pip[@]}" "${install[@]}" -r "$requirements" >"$log" 2>&1 || fail 4 "installation failed"
-echo "$wanted" >"$dir/installed"
+echo "$wanted" >"$fresh/installed"
+chmod 755 "$fresh"
+rm -rf "$dir"
+mv "$fresh" "$dir" || fail 4 "$dir cannot be replaced"

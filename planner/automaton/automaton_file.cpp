@@ -156,8 +156,9 @@ Maneuver read_maneuver(const Node& entry, const UniversalAutomaton& automaton,
   Maneuver m;
   m.from = {entry.required<std::size_t>("from", trims) - 1};
   m.to = {entry.required<std::size_t>("to", trims) - 1};
-  m.label = entry.required<std::string>("label",
-                                        m.from == m.to ? one_of({kSelfLoopLabel}) : one_of(labels));
+  std::vector<std::string> allowed = labels;
+  if (m.from == m.to) allowed.push_back(kSelfLoopLabel);
+  m.label = entry.required<std::string>("label", one_of(allowed));
   m.duration_s = automaton.step_s;
   const auto end = entry.list("displacement", 3, "x, y and heading");
   m.displacement = {end[0].as<double>(), end[1].as<double>(), end[2].as<double>()};

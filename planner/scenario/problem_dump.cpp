@@ -39,12 +39,13 @@ std::vector<const automaton::Maneuver*> foreign_maneuvers(const automaton::Subgr
                                                           const search::HorizonProblem& problem) {
   std::vector<const automaton::Maneuver*> foreign;
   for (const automaton::Maneuver* maneuver : problem.incumbent) {
-    const bool is_known =
-        subgraph.automaton().find(maneuver->from, maneuver->to, maneuver->label) != nullptr ||
-        std::ranges::any_of(foreign, [maneuver](const automaton::Maneuver* one) {
-          return one->from == maneuver->from && one->to == maneuver->to &&
-                 one->label == maneuver->label;
-        });
+    const automaton::Maneuver* held =
+        subgraph.automaton().find(maneuver->from, maneuver->to, maneuver->label);
+    const bool is_known = (held != nullptr && held->label == maneuver->label) ||
+                          std::ranges::any_of(foreign, [maneuver](const automaton::Maneuver* one) {
+                            return one->from == maneuver->from && one->to == maneuver->to &&
+                                   one->label == maneuver->label;
+                          });
     if (!is_known) foreign.push_back(maneuver);
   }
   return foreign;
@@ -53,7 +54,7 @@ std::vector<const automaton::Maneuver*> foreign_maneuvers(const automaton::Subgr
 std::vector<std::string> labels_of(const automaton::UniversalAutomaton& automaton) {
   std::set<std::string> labels;
   for (const automaton::Maneuver& maneuver : automaton.maneuvers) {
-    if (maneuver.from != maneuver.to) labels.insert(maneuver.label);
+    if (!maneuver.is_self_loop()) labels.insert(maneuver.label);
   }
   return {labels.begin(), labels.end()};
 }

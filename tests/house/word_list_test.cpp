@@ -167,7 +167,7 @@ bool has_name(const std::string& line, const std::string& name) {
   return false;
 }
 
-/// Keys of input files whose names the field has given.
+/// Keys of input files that users have been given by these names.
 constexpr const char* kKeys[] = {"own_steps"};
 
 std::string without_keys(std::string line) {

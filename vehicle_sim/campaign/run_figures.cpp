@@ -44,10 +44,6 @@ void add_planning(std::span<const result::VehicleSummary> vehicles, RunFigures& 
 
 }  // namespace
 
-std::string planned_on(const std::string& subgraph, const std::string& policy) {
-  return policy == policy::kNoPolicy ? subgraph : "policy " + policy;
-}
-
 RunFigures with_figures(RunFigures heading, const CampaignResult& result) {
   RunFigures figures = std::move(heading);
   const result::RunSummary& summary = result.summary;

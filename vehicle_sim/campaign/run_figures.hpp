@@ -54,24 +54,8 @@ struct RunFigures {
   std::map<std::string, double> subgraph_shares;  ///< by name
 };
 
-/// True if a policy chose the subgraph.
-[[nodiscard]] inline bool has_policy(const RunFigures& run) {
-  return run.policy != policy::kNoPolicy;
-}
-
-/// The subgraph or policy, as tables and figures name it: "B", "policy zones".
-[[nodiscard]] std::string planned_on(const std::string& subgraph, const std::string& policy);
-[[nodiscard]] inline std::string planned_on(const RunFigures& run) {
-  return planned_on(run.subgraph, run.policy);
-}
-
 /// True if the run counts: it was driven to its end, and well (CampaignResult::fault).
 [[nodiscard]] inline bool is_well_driven(const RunFigures& run) { return run.failure.empty(); }
-
-/// True if it counts and the vehicle of highest priority drove a lap.
-[[nodiscard]] inline bool has_lap(const RunFigures& run) {
-  return is_well_driven(run) && run.lap_s && run.error_mean_mm;
-}
 
 /// The figures of a run that was driven to its end.
 /// @param heading  scenario, profile, subgraph, policy and start; kept

@@ -1,6 +1,7 @@
 """python -m report OUT: writes OUT/report.md and OUT/report/."""
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -30,14 +31,26 @@ def _parse() -> argparse.Namespace:
 
 
 def write(page: Page, figures: list[str], folder: Path) -> None:
-    """@raises OSError"""
+    """The data first, then the page, which a reader sees whole. @raises OSError"""
     (folder / "report").mkdir(exist_ok=True)
     links = [f"[{name}.csv](report/{name}.csv)" for name in page.data]
     for name, data in page.data.items():
-        data.to_csv(folder / "report" / f"{name}.csv", index=False, float_format="%.12g", lineterminator="\n")
+        text = data.to_csv(index=False, float_format="%.12g", lineterminator="\n")
+        replace(folder / "report" / f"{name}.csv", text)
     drawn = "# Figures\n\n" + "\n".join(figures) + "\n\n" if figures else ""
-    (folder / "report.md").write_text(f"{page.text}{drawn}Data of the tables: {', '.join(links)}\n\n{page.origin}",
-                                      encoding="utf-8")
+    replace(folder / "report.md", f"{page.text}{drawn}Data of the tables: {', '.join(links)}\n\n{page.origin}")
+
+
+def replace(file: Path, text: str) -> None:
+    """Writes beside the file and renames: the old text or the whole new one. @raises OSError of the file"""
+    partial = file.with_name(f".{file.name}.{os.getpid()}")
+    try:
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(file)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(file)) from error
+    finally:
+        partial.unlink(missing_ok=True)
 
 
 def main() -> int:
@@ -45,13 +58,11 @@ def main() -> int:
     folder = _parse().folder
     try:
         page = page_of(read_folder(folder))
-        lines: list[str] = []
+        write(page, [], folder)  # a figure that fails must not take the tables with it
         if (folder / "series").is_dir():
             from report import figures  # needs matplotlib, which tables do not
 
-            (folder / "report").mkdir(exist_ok=True)
-            lines = figures.draw_all(folder)
-        write(page, lines, folder)
+            write(page, figures.draw_all(folder), folder)
     except InputError as error:
         print(f"report: {error}", file=sys.stderr)
         return BAD_INPUT

@@ -56,9 +56,11 @@ def accuracy_markdown(data: pd.DataFrame) -> str:
     names = [f"{one.second} against {one.first}" for one in families.itertuples()]
     sizes = dict(zip(names, families.family))
     counts = "; ".join(f"{name} {count}" for name, count in sizes.items())
+    starts = data.groupby(["first", "second"], sort=False).starts.max()
+    weakest = {name: (int(count), int(sizes[name])) for name, count in zip(names, starts)}
     rows = [[settings_text(axes), ", ".join(values), *(_cell(one) for one in group.itertuples())]
             for (axes, values), group in data.groupby(["settings", "values"], sort=False)]
-    return f"{WORDS}{counts}.\n\n" + power_text(data.starts.max(), sizes) + table(["setting", "value", *names], rows)
+    return f"{WORDS}{counts}.\n\n" + power_text(weakest) + table(["setting", "value", *names], rows)
 
 
 def _cell(row: tuple) -> str:

@@ -11,7 +11,7 @@ from report.markdown import number
 
 CONFIDENCE = 0.95
 LEVEL = 0.05  # of significance
-EXACT_PAIRS = 300  # with more of them the signed-rank test's normal approximation is exact to all printed digits
+EXACT_PAIRS = 300  # with more of them the signed-rank test's normal approximation is off by some 1e-4
 
 
 class Interval(NamedTuple):
@@ -103,13 +103,13 @@ def p_text(corrected: float, interval: Interval) -> str:
     return text + (" * (†)" if abs(interval.mean) <= interval.half_width else " *")
 
 
-def power_text(starts: int, families: dict[str, int]) -> str:
+def power_text(families: dict[str, tuple[int, int]]) -> str:
     """Names the families in which no claim can hold: with n starts that all agree p is 2 / 2^n, and the smallest p of m
-    is corrected by the factor m. @param families: numbers of tests by name"""
-    least = 2.0 ** (1 - starts)
-    weak = {name: count for name, count in families.items() if count * least > LEVEL}
+    is corrected by the factor m. @param families: numbers of starts and of tests by name"""
+    weak = {name: (starts, count) for name, (starts, count) in families.items() if count * 2.0 ** (1 - starts) > LEVEL}
     if not weak:
         return ""
-    needed = int(np.ceil(1 + np.log2(max(weak.values()) / LEVEL)))
-    return (f"**With {starts} starts no p is below {least:.2g}, so that after the correction no claim about "
-            f"{', '.join(weak)} can hold at 5 %**; all can with {needed} starts.\n\n")
+    needed = int(np.ceil(1 + np.log2(max(count for _, count in weak.values()) / LEVEL)))
+    names = ", ".join(f"{name} ({starts} starts, {count} claims)" for name, (starts, count) in weak.items())
+    return (f"**No claim about {names} can hold at 5 %**: with n starts no p is below 2 / 2ⁿ, and the smallest one is "
+            f"corrected by the number of claims; all can with {needed} starts.\n\n")

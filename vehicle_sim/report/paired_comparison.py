@@ -101,7 +101,9 @@ def paired_markdown(data: pd.DataFrame) -> str:
     families = data.drop_duplicates(["setting", "quantity"])
     counts = families[families.quantity != FACTOR].groupby("setting", sort=False).family.max()
     text = WORDS + "; ".join(f"{name} {count} each" for name, count in counts.items()) + ".\n\n"
-    text += power_text(data.starts.max(), counts.to_dict())
+    of_family = data.groupby(["setting", "quantity"], sort=False)
+    starts = of_family.starts.max().groupby("setting", sort=False).min()
+    text += power_text({name: (int(starts[name]), int(count)) for name, count in counts.items()})
     keys = ["setting", "with", "within", "value", "scenario", "subgraph"]
     rows = []
     for _, group in data[data.quantity != FACTOR].groupby(keys, sort=False):

@@ -2,7 +2,7 @@
 
 The nearest is chosen by the distance over the first half of the starts (rounded up), which is therefore biased; the
 other half, which had no part in the choice, measures how near it really is. Combinations that lack a lap from some
-start are left out.
+start that chooses are left out; one that lacks a lap from a held-out start has no distance there.
 """
 
 import numpy as np
@@ -23,23 +23,23 @@ def judged_combinations(sweep: Sweep) -> pd.DataFrame | None:
     `held_out` (D; NaN without such starts), `may_be_as_near` to the first. None if the paper has no cell for the runs.
     """
     choosing = choosing_runs(sweep)
-    everything = distances_of(sweep.runs, ["combination"])
-    if everything.empty:
+    chosen_by = distances_of(sweep.runs[choosing], ["combination"])
+    if chosen_by.empty:
         return None
     by_start = np.sqrt(distances_of(sweep.runs, ["combination", "start"])).unstack("start")
     settings = [SETTING + name for name in sweep.settings]
     judged = sweep.runs.groupby("combination")[settings].first()
     judged["starts_without_lap"] = by_start.isna().sum(axis=1)
-    judged["choosing"] = distances_of(sweep.runs[choosing], ["combination"]).where(everything.notna())
+    judged["choosing"] = chosen_by
     judged["held_out"] = np.nan
-    judged["may_be_as_near"] = everything.notna()
+    judged["may_be_as_near"] = chosen_by.notna()
     judged = judged.sort_values("choosing", kind="stable")
     if choosing.all() or judged.choosing.isna().all():
         return judged
-    judged["held_out"] = distances_of(sweep.runs[~choosing], ["combination"]).where(everything.notna())
+    judged["held_out"] = distances_of(sweep.runs[~choosing], ["combination"]).where(chosen_by.notna())
     held_out = by_start.loc[:, sorted(sweep.runs.start[~choosing].unique())]
     differences = held_out - held_out.loc[judged.index[0]]
-    judged["may_be_as_near"] = [not np.isnan(one.choosing) and not _is_above_zero(differences.loc[combination])
+    judged["may_be_as_near"] = [not np.isnan(one.choosing) and not _is_above_zero(differences.loc[combination].dropna())
                                 for combination, one in judged.iterrows()]
     return judged
 
@@ -65,8 +65,8 @@ def comparison_markdown(sweep: Sweep) -> str:
     text = (
         "## Next to the paper's Table 2\n\nFactor = exp(sqrt(D)), D = mean over the cells of (ln ours / paper)², each "
         f"at most (ln 10)²; ours is the mean over the starts. By so much a typical cell is off.\n\n**{len(left_out)} "
-        f"of {len(judged)} combinations are left out**{each}: from some start a run failed, a car was stuck, or there "
-        f"was no lap, so that they have no mean over all starts.\n\n")
+        f"of {len(judged)} combinations are left out**{each}: from some start that chooses a run failed, a car was stuck, "
+        f"or there was no lap, so that they have no mean over these starts.\n\n")
     if ranked.empty:
         return text
     first_held_out = (sweep.starts + 1) // 2

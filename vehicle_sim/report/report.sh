@@ -22,5 +22,5 @@ esac
 (($# == 1)) || fail "$# folders, must be one, see --help"
 
 environment=$root/build/report_environment
-"$root/launch_scripts/python_environment.sh" "$environment" "$root/vehicle_sim/report/requirements.txt" || exit $?
+"$root/launch_scripts/python_environment.sh" "$environment" "$root/vehicle_sim/report/requirements.txt" || exit 3
 PYTHONPATH=$root/vehicle_sim PYTHONDONTWRITEBYTECODE=1 exec "$environment/bin/python" -m report "$1"

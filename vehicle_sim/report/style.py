@@ -2,12 +2,14 @@
 
 import contextlib
 import shutil
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pgf import LatexError
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 import pandas as pd
@@ -134,6 +136,10 @@ def save(drawing: Drawing, folder: Path) -> list[Path]:
     drawing.data.to_csv(files[2], index=False, float_format="%.7g", lineterminator="\n")
     if engine := latex_engine():
         files.append(folder / f"{drawing.name}.pgf")
-        with matplotlib.rc_context({"pgf.texsystem": engine}):
-            drawing.figure.savefig(files[-1], backend="pgf")
+        try:
+            with matplotlib.rc_context({"pgf.texsystem": engine}):
+                drawing.figure.savefig(files[-1], backend="pgf")
+        except LatexError as error:  # an engine without the packages that the preamble needs
+            print(f"report: {files[-1]}: not written, {engine}: {str(error).splitlines()[0]}", file=sys.stderr)
+            files.pop().unlink(missing_ok=True)
     return files

@@ -13,8 +13,7 @@ OBJECTIVES = ["moving", "error_mean_mm"]
 
 def choices_of(sweep: Sweep) -> pd.DataFrame:
     """Combinations that drive a lap from every start: scenario, subgraph, `moving` (number of enabled moving trims),
-    means over the starts, `dominating` (choices with fewer or as many moving trims and at most the mean error, one of
-    the two strictly less), by moving trims, then error."""
+    means over the starts, by moving trims, then error."""
     keys = ["scenario", "subgraph", "combination"]
     groups = sweep.runs.assign(has_lap=sweep.runs.outcome == LAP).groupby(keys, observed=True)
     choices = groups[["error_mean_mm", "lap_s", "generated_max"]].mean()

@@ -87,6 +87,22 @@ subgraphs:
   automaton::AutomatonFile file_;
 };
 
+TEST_F(BuiltAutomaton, WithOptimisedSelfLoopsReadsBackOnTheSameSubgraph) {
+  write("car.yaml", configuration_text_ + "own_steps: optimised\n");
+  const AutomatonConfiguration configuration = read_automaton_configuration(folder_ / "car.yaml");
+  write_automaton_file(file_of(configuration, build_automaton(configuration)), path_);
+  const automaton::AutomatonFile read = read_current_automaton_file(path_);
+  const automaton::Subgraph subgraph(read.automaton, read.subgraphs.front());
+  for (const TrimId trim : subgraph.trims()) {
+    const bool stands = read.automaton->trims[trim.index].is_equilibrium();
+    const automaton::Maneuver* own = read.automaton->find(trim, trim, "J2");
+    EXPECT_EQ(own->label, stands ? automaton::kSelfLoopLabel : "J2") << trim.index + 1;
+    EXPECT_TRUE(std::ranges::any_of(subgraph.successors(trim), [own](const automaton::Edge& edge) {
+      return edge.maneuver == own;
+    })) << trim.index + 1;
+  }
+}
+
 TEST_F(BuiltAutomaton, ReadsBackToTheSameBits) {
   const automaton::AutomatonFile read = read_current_automaton_file(path_);
   EXPECT_EQ(read.configuration_file, "car.yaml");

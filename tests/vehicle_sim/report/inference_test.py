@@ -77,14 +77,14 @@ class SignedRank(unittest.TestCase):
         for seed, generator in seeds(30):
             starts, count = int(generator.integers(1, 14)), int(generator.integers(1, 40))
             best = holm(pd.Series([signed_rank_p(np.arange(1.0, starts + 1))] + [1.0] * (count - 1))).min()
-            text = power_text(starts, {"width": (count + 1) // 2, "search": count, "lap": 0})
+            text = power_text({"width": (starts, (count + 1) // 2), "search": (starts, count), "lap": (starts, 0)})
             with self.subTest(seed=seed, starts=starts, count=count):
                 self.assertEqual(text == "", best <= 0.05)
                 if text:
                     needed = int(text.split("all can with ")[1].split()[0])
                     self.assertLessEqual(count * signed_rank_p(np.ones(needed)), 0.05)
                     self.assertGreater(count * signed_rank_p(np.ones(needed - 1)), 0.05)
-                    self.assertIn(f"With {starts} starts no p is below", text)
+                    self.assertIn(f"search ({starts} starts, {count} claims)", text)
                     self.assertNotIn("lap", text.split("claim about")[1])
 
 

@@ -83,8 +83,14 @@ class PairedComparison(unittest.TestCase):
     def test_names_the_settings_for_which_the_starts_are_too_few(self) -> None:
         rows = [run(start, **{"set.search": value}) for value in "ab" for start in range(4)]
         text = paired_markdown(paired_data(sweep({"search": ["a", "b"]}, rows)))
-        self.assertIn("**With 4 starts no p is below 0.12, so that after the correction no claim about search can hold",
-                      text)
+        self.assertIn("**No claim about search (4 starts, 1 claims) can hold at 5 %**", text)
+
+    def test_names_a_family_that_a_missing_lap_leaves_with_too_few_starts(self) -> None:
+        rows = [run(start, **{"set.search": value}) for value in "ab" for start in range(8)]
+        for one in rows[:4]:
+            one["lap_s"] = np.nan
+        text = paired_markdown(paired_data(sweep({"search": ["a", "b"]}, rows)))
+        self.assertIn("**No claim about search (4 starts, 1 claims) can hold at 5 %**", text)
 
     def test_the_distance_to_the_paper_leaves_out_pairs_without_a_lap(self) -> None:
         rows = [run(start, scenario=LAB, subgraph="D", error_mean_mm=17.0, error_std_mm=16.1, lap_s=16.0,
@@ -112,8 +118,9 @@ class AccuracyComparison(unittest.TestCase):
         rows[-1]["lap_s"] = np.nan
         data = accuracy_data(sweep({"search": ["a", "b"]}, rows, tables=[("search",)]))
         text = accuracy_markdown(data)
-        self.assertIn("in this sweep: B against A 3.\n\n**With 6 starts no p is below 0.031, so that after the "
-                      "correction no claim about B against A can hold at 5 %**; all can with 7 starts.", text)
+        self.assertIn("in this sweep: B against A 3.\n\n**No claim about B against A (6 starts, 3 claims) can hold at "
+                      "5 %**: with n starts no p is below 2 / 2ⁿ, and the smallest one is corrected by the number of "
+                      "claims; all can with 7 starts.", text)
         self.assertIn("| all |  | 1 of 1, 0.62; 0.83 ± 3.35 mm; p 0.625 |", text)
         self.assertIn("| search | a | 1 of 1, 0.62; -7.50 ± 1.96 mm; p 0.094 |", text)
         self.assertIn("| search | b | 0 of 0; 12.00 ± 1.96 mm; p 0.125 |", text)

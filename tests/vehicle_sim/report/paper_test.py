@@ -100,7 +100,7 @@ class Comparison(unittest.TestCase):
         laps = {"near": 16.0, "far": 20.0, "never": 16.0}
         rows = [run(start, **PAPERS_D | {"lap_s": lap + 0.01 * start, "set.search": search})
                 for search, lap in laps.items() for start in range(starts)]
-        rows[-1]["lap_s"] = np.nan
+        rows[-starts]["lap_s"] = np.nan
         return rows
 
     def test_leaves_out_and_counts_a_combination_in_which_a_start_has_no_lap(self) -> None:
@@ -115,6 +115,15 @@ class Comparison(unittest.TestCase):
         self.assertIn("The nearest of 2 combinations is chosen by the starts 0 to 3; its distance is measured on the "
                       "starts 4 to 7", text)
         self.assertIn("| search | never | 1 | 1 | - | - | - | - |", text)
+
+    def test_a_missing_lap_of_a_held_out_start_has_no_part_in_the_choice(self) -> None:
+        rows = self.runs()
+        before = judged_combinations(sweep(self.SETTINGS, rows))
+        rows[7]["lap_s"] = np.nan  # of the nearest
+        judged = judged_combinations(sweep(self.SETTINGS, rows))
+        pd.testing.assert_series_equal(judged.choosing, before.choosing)
+        self.assertEqual(list(judged.held_out.isna()), [True, False, True])
+        self.assertEqual(list(judged.may_be_as_near), [True, False, False])
 
     def test_a_far_outlier_among_the_left_out_changes_no_other(self) -> None:
         rows = self.runs()

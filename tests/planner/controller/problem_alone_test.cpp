@@ -1,0 +1,45 @@
+#include "planner/controller/problem_alone.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "planner/controller/controller_options.hpp"
+#include "tests/planner/automaton/paper_automaton.hpp"
+#include "tests/planner/right_of_way/routes.hpp"
+#include "tests/support/num_seeds.hpp"
+
+namespace hlc::controller::problem_alone_test {
+namespace {
+
+/// The paper's subgraph with a speed limit, or without.
+automaton::Subgraph limited(std::optional<double> max_speed_mps) {
+  automaton::SubgraphSpec spec = automaton::paper_configuration().subgraphs.front();
+  spec.max_speed_mps = max_speed_mps;
+  return {automaton::paper_automaton(), spec};
+}
+
+std::vector<double> speeds_mps(std::optional<double> limit_mps, double reference_speed_mps) {
+  RouteTracker tracker(std::make_shared<const std::vector<road::DrivableRoute>>(
+      1, right_of_way::circle({0.0, 0.0}, 2.0)));
+  tracker.select_route({2.0, 0.0, 1.57}, {});
+  ControllerOptions options;
+  options.reference_speed_mps = reference_speed_mps;
+  return reference_alone({}, tracker, tracker.s_m().value(), limited(limit_mps), options, 1e9)
+      .speeds_mps;
+}
+
+TEST(ReferenceAlone, IsNotFasterThanTheSubgraphsLimit) {
+  for (std::uint64_t seed = 0; seed < test::num_seeds(50); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> speed_mps(0.65, 1.2);  // trims are at 0.6 m/s and more
+    const double reference_mps = speed_mps(random);
+    const double limit_mps = speed_mps(random);
+    EXPECT_EQ(speeds_mps(limit_mps, reference_mps),
+              speeds_mps(std::nullopt, std::min(limit_mps, reference_mps)));
+  }
+}
+
+}  // namespace
+}  // namespace hlc::controller::problem_alone_test
