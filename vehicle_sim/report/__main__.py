@@ -1,15 +1,17 @@
 """python -m report OUT: writes OUT/report.md and OUT/report/."""
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
 from report.errors import InputError
+from report.files import replace
 from report.results import read_folder
 from report.tables import Page, page_of
 
-BAD_INPUT, NOT_WRITABLE = 2, 3
+BAD_INPUT, NOT_WRITABLE, INTERRUPTED = 2, 3, 130
+NO_SERIES = "None: there are no series, which `evaluate --series` writes for a campaign."
+NOT_DRAWN = "Not drawn: the report ended before."
 
 
 class _Parser(argparse.ArgumentParser):
@@ -35,22 +37,11 @@ def write(page: Page, figures: list[str], folder: Path) -> None:
     (folder / "report").mkdir(exist_ok=True)
     links = [f"[{name}.csv](report/{name}.csv)" for name in page.data]
     for name, data in page.data.items():
-        text = data.to_csv(index=False, float_format="%.12g", lineterminator="\n")
-        replace(folder / "report" / f"{name}.csv", text)
+        replace(folder / "report" / f"{name}.csv",
+                lambda file, data=data: data.to_csv(file, index=False, float_format="%.12g", lineterminator="\n"))
     drawn = "# Figures\n\n" + "\n".join(figures) + "\n\n" if figures else ""
-    replace(folder / "report.md", f"{page.text}{drawn}Data of the tables: {', '.join(links)}\n\n{page.origin}")
-
-
-def replace(file: Path, text: str) -> None:
-    """Writes beside the file and renames: the old text or the whole new one. @raises OSError of the file"""
-    partial = file.with_name(f".{file.name}.{os.getpid()}")
-    try:
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(file)
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(file)) from error
-    finally:
-        partial.unlink(missing_ok=True)
+    text = f"{page.text}{drawn}Data of the tables: {', '.join(links)}\n\n{page.origin}"
+    replace(folder / "report.md", lambda file: file.write_text(text, encoding="utf-8"))
 
 
 def main() -> int:
@@ -58,8 +49,10 @@ def main() -> int:
     folder = _parse().folder
     try:
         page = page_of(read_folder(folder))
-        write(page, [], folder)  # a figure that fails must not take the tables with it
-        if (folder / "series").is_dir():
+        if not (folder / "series").exists():
+            write(page, [NO_SERIES], folder)
+        else:
+            write(page, [NOT_DRAWN], folder)  # a figure that fails must not take the tables with it
             from report import figures  # needs matplotlib, which tables do not
 
             write(page, figures.draw_all(folder), folder)
@@ -69,6 +62,10 @@ def main() -> int:
     except OSError as error:
         print(f"report: {error.filename}: {error.strerror}, must be writable", file=sys.stderr)
         return NOT_WRITABLE
+    except KeyboardInterrupt:
+        print("report: interrupted, the same command goes on", file=sys.stderr)
+        return INTERRUPTED
+    print(folder / "report.md")
     return 0
 
 

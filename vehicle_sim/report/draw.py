@@ -2,13 +2,13 @@
 
 import argparse
 import json
-import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 from . import figure_automaton, figure_pareto, figure_problem, figure_scenario, style
 from .errors import InputError
+from .files import replace
 
 KINDS: dict[str, Callable[[dict], style.Drawing]] = {
     "automaton": figure_automaton.draw, "pareto": figure_pareto.draw, "problem": figure_problem.draw,
@@ -27,13 +27,8 @@ def draw(kind: str, data: Path, out: Path) -> None:
         with style.journal():
             drawing = KINDS[kind](content)
             suffix = out.suffix if out.suffix in FORMATS else ".svg"
-            partial = out.with_name(f".{out.name}.{os.getpid()}{suffix}")
-            try:
-                when = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(suffix, {})
-                drawing.figure.savefig(partial, metadata=when, dpi=200)
-                partial.replace(out)
-            finally:
-                partial.unlink(missing_ok=True)
+            when = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(suffix, {})
+            replace(out, lambda file: drawing.figure.savefig(file, format=suffix[1:], metadata=when, dpi=200))
     except (ValueError, KeyError, TypeError) as error:
         raise InputError(f"{data}: {type(error).__name__} {error}, must be the data of a drawing {kind}") from error
 

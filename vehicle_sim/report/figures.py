@@ -7,6 +7,7 @@ from . import (
     figure_distances, figure_error, figure_paths, figure_planning_time, figure_scenario, figure_subgraphs,
     figure_vertices, style,
 )
+from .errors import InputError
 from .series import Group, read_series
 
 
@@ -24,6 +25,14 @@ def drawings_of(groups: list[Group]) -> Iterator[tuple[Group, style.Drawing]]:
                 yield group, drawing
         for drawing in figure_subgraphs.draw(group):
             yield group, drawing
+
+
+def _drawn(groups: list[Group], series: Path) -> Iterator[tuple[Group, style.Drawing]]:
+    """The same; values that no run has fail in one line."""
+    try:
+        yield from drawings_of(groups)
+    except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+        raise InputError(f"{series}: {type(error).__name__} {error}, must be as evaluate --series wrote it") from error
 
 
 def heading_of(group: Group) -> str:
@@ -53,7 +62,7 @@ def draw_all(folder: Path) -> list[str]:
     lines: list[str] = []
     last: Group | None = None
     with style.journal():
-        for group, drawing in drawings_of(groups):
+        for group, drawing in _drawn(groups, folder / "series"):
             if group is not last:
                 lines += [f"## {heading_of(group)}", ""]
                 lines += [*notes_of(group), ""] if notes_of(group) else []

@@ -50,6 +50,7 @@ def choosing_runs(sweep: Sweep) -> pd.Series:
 
 
 def _is_above_zero(values: pd.Series) -> bool:
+    """False for a single value, too: it has no interval, and rules nothing out."""
     interval = interval_of_mean(values)
     return interval.mean - interval.half_width > 0.0
 
@@ -65,8 +66,8 @@ def comparison_markdown(sweep: Sweep) -> str:
     text = (
         "## Next to the paper's Table 2\n\nFactor = exp(sqrt(D)), D = mean over the cells of (ln ours / paper)², each "
         f"at most (ln 10)²; ours is the mean over the starts. By so much a typical cell is off.\n\n**{len(left_out)} "
-        f"of {len(judged)} combinations are left out**{each}: from some start that chooses a run failed, a car was stuck, "
-        f"or there was no lap, so that they have no mean over these starts.\n\n")
+        f"of {len(judged)} combinations are left out**{each}: from some start that chooses a run failed, a car was "
+        f"stuck, or there was no lap, so that they have no mean over these starts.\n\n")
     if ranked.empty:
         return text
     first_held_out = (sweep.starts + 1) // 2

@@ -66,14 +66,16 @@ def read_folder(folder: Path) -> Campaign | Sweep:
         record = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise InputError(f"{path}: no such file, must be written by evaluate") from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: {error}, must be JSON") from None
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror}, must be a file that evaluate wrote") from None
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{path}: {type(error).__name__}, must be JSON as evaluate wrote it") from None
     kind = _field(record, "kind", str, path)
     origin = _field(record, "origin", dict, path)
     for key in ("command", "revision", "compiler", "processor"):
         _field(origin, key, str, f"{path}: origin")
     if kind == "campaign":
-        return Campaign(origin, _read_runs(Rows(folder / "runs.csv"), columns.MEASURED), _read_cars(folder))
+        return _read_campaign(folder, origin, _field(record, "campaign", dict, path))
     if kind == "sweep":
         return _read_sweep(folder, origin, _field(record, "sweep", dict, path))
     raise InputError(f'{path}: kind = "{kind}", must be campaign or sweep')
@@ -105,6 +107,28 @@ def _read_runs(rows: Rows, measured: tuple[str, ...]) -> pd.DataFrame:
     if runs["run"].duplicated().any():
         rows.fail(f"run {runs['run'][runs['run'].duplicated()].iloc[0]} twice", "with a row per run")
     return with_outcome(pd.DataFrame(runs))
+
+
+def _read_campaign(folder: Path, origin: dict[str, str], plan: dict[str, Any]) -> Campaign:
+    """Every run of the plan has one row, and no other run has."""
+    place = f"{folder / 'campaign.json'}: campaign"
+    planned, starts = _field(plan, "runs", int, place), _field(plan, "starts", int, place)
+    rows = Rows(folder / "runs.csv")
+    runs = _read_runs(rows, columns.MEASURED)
+    different = len(runs.drop_duplicates([*columns.IDENTITY, "start"]))
+    if len(runs) != planned or different != planned:
+        rows.fail(f"{len(runs)} rows, {different} different ones", f"{planned}, as campaign.json has it")
+    if runs.start.max() >= starts:
+        rows.fail(f"start {runs.start.max()}", f"in 0 ... {starts - 1}, as campaign.json has it")
+    for name in ("subgraphs", "profiles"):
+        allowed = _list(plan, name, str, place)
+        fixed = runs[runs.policy == NO_POLICY] if name == "subgraphs" else runs
+        for value in sorted(set(fixed[name[:-1]]) - set(allowed) if allowed else []):
+            rows.fail(f'{name[:-1]} "{value}"', f"one of {', '.join(allowed)}, as campaign.json has it")
+    cars = _read_cars(folder)
+    if missing := set(runs.run[runs.outcome != FAILED]) - set(cars.run):
+        raise InputError(f"{folder / 'cars.csv'}: no car of run {min(missing)}, must have a row per run and car")
+    return Campaign(origin, runs, cars)
 
 
 def _read_cars(folder: Path) -> pd.DataFrame:

@@ -14,6 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 import pandas as pd
 
+from .files import replace
+
 WIDTH_IN = 7.16  # a page of two columns (IEEE)
 MARK = "#444444"  # bounds, marks: no series
 ZONE = "#e6e6e6"
@@ -131,15 +133,15 @@ def save(drawing: Drawing, folder: Path) -> list[Path]:
     The same figure gives the same bytes of SVG and PDF.
     """
     files = [folder / f"{drawing.name}.{kind}" for kind in ("svg", "pdf", "csv")]
-    drawing.figure.savefig(files[0], metadata={"Date": None})
-    drawing.figure.savefig(files[1], metadata={"CreationDate": None})
-    drawing.data.to_csv(files[2], index=False, float_format="%.7g", lineterminator="\n")
+    replace(files[0], lambda file: drawing.figure.savefig(file, metadata={"Date": None}))
+    replace(files[1], lambda file: drawing.figure.savefig(file, metadata={"CreationDate": None}))
+    replace(files[2], lambda file: drawing.data.to_csv(file, index=False, float_format="%.7g", lineterminator="\n"))
     if engine := latex_engine():
         files.append(folder / f"{drawing.name}.pgf")
         try:
             with matplotlib.rc_context({"pgf.texsystem": engine}):
-                drawing.figure.savefig(files[-1], backend="pgf")
+                replace(files[-1], lambda file: drawing.figure.savefig(file, backend="pgf"))
         except LatexError as error:  # an engine without the packages that the preamble needs
             print(f"report: {files[-1]}: not written, {engine}: {str(error).splitlines()[0]}", file=sys.stderr)
-            files.pop().unlink(missing_ok=True)
+            files.pop()
     return files

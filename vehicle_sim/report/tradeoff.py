@@ -45,7 +45,7 @@ class ReferenceValue(NamedTuple):
 
 # Constants: with a reference that depends on the rows, a bad row would change the gain of all others.
 REFERENCE: dict[str, ReferenceValue] = {
-    "lap_s": ReferenceValue(32.0, "twice a lap at the reference speed of 0.8 m/s"),
+    "lap_s": ReferenceValue(32.0, "twice a lap of subgraph B"),
     "driven_error_mean_mm": ReferenceValue(60.0, "half the car's width of 107 mm, rounded up: the side is where the "
                                                  "centre should be"),
     "effort_per_m": ReferenceValue(50.0, "maneuvers that ignore the effort, J1 of profile default, cost 47 to 48"),

@@ -69,12 +69,14 @@ def write_csv(path: Path, rows: list[dict[str, object]]) -> None:
         writer.writerows({name: "" if value != value else value for name, value in row.items()} for row in rows)
 
 
-def write_campaign(folder: Path, runs: list[dict[str, object]] | None = None) -> None:
-    """A folder as evaluate writes it."""
+def write_campaign(folder: Path, runs: list[dict[str, object]] | None = None,
+                   changes: dict[str, object] | None = None) -> None:
+    """A folder as evaluate writes it. @param changes: of the plan"""
     runs = [run()] if runs is None else runs
-    (folder / "campaign.json").write_text(json.dumps({"kind": "campaign", "origin": ORIGIN, "campaign": {}}))
+    plan = {"runs": len(runs), "starts": 9, "subgraphs": ["A"], "profiles": ["default"]} | (changes or {})
+    (folder / "campaign.json").write_text(json.dumps({"kind": "campaign", "origin": ORIGIN, "campaign": plan}))
     write_csv(folder / "runs.csv", [row | {"run": i} for i, row in enumerate(runs)])
-    write_csv(folder / "cars.csv", [CAR])
+    write_csv(folder / "cars.csv", [CAR | {"run": i} for i, _ in enumerate(runs)])
 
 
 def write_sweep(folder: Path, **changes: object) -> None:

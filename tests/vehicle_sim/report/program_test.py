@@ -45,7 +45,7 @@ class Program(unittest.TestCase):
 
     def test_writes_the_page_and_its_data_of_a_campaign(self) -> None:
         write_campaign(self.folder, [run(), run(policy='a"b,c')])
-        self.assertEqual(self.call(), (0, "", ""))
+        self.assertEqual(self.call(), (0, f"{self.folder / 'report.md'}\n", ""))
         text = (self.folder / "report.md").read_text()
         self.assertTrue(text.startswith("# Evaluation\n"))
         self.assertTrue(text.endswith("Command: `evaluate`\n\nProgram 0, compiled by GCC; none.\n"))
@@ -61,7 +61,7 @@ class Program(unittest.TestCase):
 
     def test_writes_the_page_and_its_data_of_a_sweep(self) -> None:
         write_sweep(self.folder)
-        self.assertEqual(self.call(), (0, "", ""))
+        self.assertEqual(self.call(), (0, f"{self.folder / 'report.md'}\n", ""))
         text = (self.folder / "report.md").read_text()
         self.assertIn("# Sweep rules.yaml\n\n4 runs: 2 combinations of settings; scenarios 1, subgraphs 1, starts 2,",
                       text)
@@ -87,6 +87,22 @@ class Program(unittest.TestCase):
             self.assertEqual(self.call()[0], 0)
         self.assertIn(f"# Figures\n\n![paths](report/paths.svg) of {self.folder.name}\n",
                       (self.folder / "report.md").read_text())
+
+    def test_series_that_cannot_be_drawn_leave_the_tables_and_are_named_on_the_page(self) -> None:
+        write_campaign(self.folder)
+        (self.folder / "series").mkdir()
+        code, out, error = self.call()
+        self.assertEqual((code, out, error.count("\n")), (2, "", 1))
+        self.assertIn(str(self.folder / "series"), error)
+        text = (self.folder / "report.md").read_text()
+        self.assertIn("# Evaluation", text)
+        self.assertIn("Not drawn", text)
+        self.assertEqual([path.name for path in self.folder.glob("**/.*")], [], "nothing half-written")
+
+    def test_without_series_the_page_names_the_flag_that_writes_them(self) -> None:
+        write_campaign(self.folder)
+        self.call()
+        self.assertIn("`evaluate --series`", (self.folder / "report.md").read_text())
 
     def test_flags(self) -> None:
         code, out, _ = self.call("--help")
@@ -140,6 +156,22 @@ class Program(unittest.TestCase):
         write_campaign(self.folder)
         write_csv(self.folder / "cars.csv", [{"run": 0}])
         self.refused("cars.csv:1: no column start")
+
+    def test_refuses_a_campaign_whose_rows_are_not_of_its_plan(self) -> None:
+        two = [run(), run(1)]
+        for changes, reason in (({"runs": 3}, "runs.csv: 2 rows, 2 different ones, must be 3, as campaign.json has it"),
+                                ({"starts": 1}, "runs.csv: start 1, must be in 0 ... 0, as campaign.json has it"),
+                                ({"subgraphs": ["B"]}, 'runs.csv: subgraph "A", must be one of B, as campaign.json'),
+                                ({"profiles": ["2022"]}, 'runs.csv: profile "default", must be one of 2022'),
+                                ({"runs": "two"}, 'campaign: runs = "two", must be an integer')):
+            write_campaign(self.folder, two, changes)
+            self.refused(reason)
+        write_campaign(self.folder, [run(), run()])
+        self.refused("runs.csv: 2 rows, 1 different ones, must be 2, as campaign.json has it")
+        write_campaign(self.folder, two)
+        rows = (self.folder / "cars.csv").read_text().splitlines(keepends=True)
+        (self.folder / "cars.csv").write_text("".join(rows[:-1]))
+        self.refused("cars.csv: no car of run 1, must have a row per run and car")
 
     def test_refuses_a_sweep_whose_rows_are_not_of_its_plan(self) -> None:
         write_sweep(self.folder, starts=3)
