@@ -91,7 +91,8 @@ struct Edge {
 ///    fast for the subgraph is slowed down over as many steps as it needs, and disabled trims are
 ///    left on the shortest way. The speed limit does not hold on that way: it cannot.
 /// 3. An equilibrium trim can be held forever, enabled or not: it keeps its self-loop. So standing
-///    is always a plan.
+///    is always a plan, unless the automaton holds steps of standstill that move, which take its
+///    place (maneuver_design::SelfLoops::kOptimisedAll): then it is the fallback alone.
 /// 4. A trim without any way out gives no new plan; the fallback is driven.
 ///
 /// The distance to standstill counts the exit edges, too. Once a plan has been found from a

@@ -231,10 +231,11 @@ void add_bound(const FrontPoint& point, const DesignTask& task,
   problem.cost_bounds.push_back({bounded, best + point.share * (worst - best)});
 }
 
-/// Whether a maneuver from a trim back to it is designed. See SelfLoops.
+/// Whether a maneuver from a trim back to it is designed.
 bool is_self_loop_designed(TrimId trim, const AutomatonConfiguration& configuration) {
-  return configuration.self_loops == SelfLoops::kOptimised &&
-         !configuration.trims[trim.index].is_equilibrium();
+  const bool stands = configuration.trims[trim.index].is_equilibrium();
+  return configuration.self_loops == SelfLoops::kOptimisedAll ||
+         (configuration.self_loops == SelfLoops::kOptimised && !stands);
 }
 
 /// Pairs of trims whose maneuvers are needed, sorted.

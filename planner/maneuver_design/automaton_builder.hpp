@@ -24,8 +24,8 @@ struct DesignTask {
 };
 
 /// All maneuvers that the configuration needs: for each criterion every pair of different trims
-/// that a subgraph needs, or every pair that the limits permit (EdgeChoice), and the self-loops of
-/// moving trims if these are designed (SelfLoops). By criterion as listed, from, to.
+/// that a subgraph needs, or every pair that the limits permit (EdgeChoice), and the self-loops
+/// that are designed (SelfLoops). By criterion as listed, from, to.
 [[nodiscard]] std::vector<DesignTask> design_tasks(const AutomatonConfiguration& configuration);
 
 /// Designs one maneuver. Independent of all others and without side effects: programs may call it

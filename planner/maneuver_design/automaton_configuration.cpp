@@ -165,6 +165,11 @@ ConfigurationPlaces places_of(const Node& file, const AutomatonConfiguration& co
 
 }  // namespace
 
+SelfLoops self_loops_named(const std::string& name) {
+  const auto found = std::ranges::find(kSelfLoopNames, name);
+  return static_cast<SelfLoops>(found - kSelfLoopNames.begin());
+}
+
 AutomatonConfiguration read_automaton_configuration(const std::filesystem::path& path) {
   const Node file = Node::read_yaml(path);
   AutomatonConfiguration configuration;
@@ -185,10 +190,8 @@ AutomatonConfiguration read_automaton_configuration(const std::filesystem::path&
       file.optional<std::string>("edges", "subgraphs", one_of({"subgraphs", "all"})) == "all"
           ? EdgeChoice::kAll
           : EdgeChoice::kSubgraphs;
-  configuration.self_loops =
-      file.optional<std::string>("own_steps", "trim", one_of({"trim", "optimised"})) == "optimised"
-          ? SelfLoops::kOptimised
-          : SelfLoops::kTrim;
+  configuration.self_loops = self_loops_named(
+      file.optional<std::string>("own_steps", kSelfLoopNames.front(), one_of(kSelfLoopNames)));
   configuration.criteria = read_criteria(file);
   configuration.subgraphs = automaton::read_subgraphs(
       file, {configuration.trims, configuration.vehicle, configuration.limits, configuration.step_s,

@@ -35,12 +35,22 @@ enum class EdgeChoice {
   kAll,        ///< all pairs of trims that the bounds on acceleration and steering rate permit
 };
 
-/// The step that a moving trim makes back to itself. Standstill stands.
+/// The step that a trim makes back to itself.
 enum class SelfLoops {
   kTrim,       ///< the trim itself, driven for one step, whatever the label
-  kOptimised,  ///< optimal for each label, like every other edge: the trim at both ends, free
-               ///< between them
+  kOptimised,  ///< of a moving trim optimal for each label, like every other edge: the trim at both
+               ///< ends, free between them. Standstill stands
+  /// Of standstill, too. New plans then move wherever the label rewards it, so the rest of a plan,
+  /// followed by standing, is not among them: only the fallback keeps the vehicle safe. For
+  /// comparisons with the paper, which does not state its self-loops.
+  kOptimisedAll,
 };
+
+/// Their names in files, in the order of the enumeration.
+inline const std::vector<std::string> kSelfLoopNames = {"trim", "optimised", "optimised_all"};
+
+/// @pre one of kSelfLoopNames
+[[nodiscard]] SelfLoops self_loops_named(const std::string& name);
 
 /// Places of keys, "file:line: key = value", for errors that only the maneuvers reveal.
 struct ConfigurationPlaces {
@@ -85,7 +95,7 @@ struct AutomatonConfiguration {
 ///     horizon_steps  (default 8)
 ///     intervals   (default 20)
 ///     edges:      subgraphs (default) | all
-///     own_steps:  trim (default) | optimised, see SelfLoops
+///     own_steps:  trim (default) | optimised | optimised_all, see SelfLoops
 ///     criteria:   list of names (see criteria.hpp), or of
 ///                 {name, weights: {J1: 0.5, J2: 0.5}, normalised: true | false (default)} (true
 ///                 needs two weights > 0), or of {name, minimise: J1, bound: J2, share: 0.5} (a

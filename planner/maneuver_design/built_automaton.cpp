@@ -38,7 +38,9 @@ std::string canonical_text(const AutomatonConfiguration& c) {
   text += fmt::format("step_s {}\nhorizon_steps {}\nintervals {}\n", shortest_text(c.step_s),
                       c.horizon_steps, c.intervals);
   text += c.edges == EdgeChoice::kAll ? "edges all\n" : "edges subgraphs\n";
-  if (c.self_loops == SelfLoops::kOptimised) text += "own_steps optimised\n";
+  if (c.self_loops != SelfLoops::kTrim) {
+    text += "own_steps " + kSelfLoopNames[static_cast<std::size_t>(c.self_loops)] + "\n";
+  }
   for (const LabelledCriterion& criterion : c.criteria) text += line_of(criterion);
   for (const automaton::SubgraphSpec& subgraph : c.subgraphs)
     text += "subgraph " + automaton::to_yaml(subgraph) + "\n";

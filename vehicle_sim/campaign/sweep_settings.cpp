@@ -95,10 +95,9 @@ std::vector<SweepSetting> automaton_settings() {
        {}},
       {"own_steps",
        false,
-       one_of({"trim", "optimised"}),
+       one_of(maneuver_design::kSelfLoopNames),
        [](const Value& value, Automaton& automaton) {
-         automaton.self_loops = value.text == "optimised" ? maneuver_design::SelfLoops::kOptimised
-                                                          : maneuver_design::SelfLoops::kTrim;
+         automaton.self_loops = maneuver_design::self_loops_named(value.text);
        },
        {}},
       {"wheelbase_m", true, above(0.0, 100.0), set_wheelbase, {}},

@@ -32,7 +32,7 @@ struct SweepValue {
 /// | `acceleration_mps2`   | > 0: the automaton's limit                                          |
 /// | `steering_rate_radps` | > 0: the automaton's limit                                          |
 /// | `speed_max_mps`       | > 0: the automaton's limit                                          |
-/// | `own_steps`           | `trim`, `optimised`: a moving trim's step back to itself            |
+/// | `own_steps`           | `trim`, `optimised`, `optimised_all`: a trim's step back to itself  |
 /// | `wheelbase_m`         | > 0; the centre of gravity keeps its place between the axles        |
 /// | `width_m`             | > 0: the footprint's                                                |
 /// | `safety_margin_m`     | >= 0: vehicle to vehicle                                            |

@@ -300,12 +300,13 @@ TEST(AutomatonBuilder, AllEdgesAreThePairsThatTheLimitsAllow) {
 }
 
 /// The paper's configuration with one label, and self-loops that are optimal for it.
-AutomatonConfiguration with_optimised_self_loops(const std::string& label) {
+AutomatonConfiguration with_optimised_self_loops(const std::string& label,
+                                                 SelfLoops self_loops = SelfLoops::kOptimised) {
   AutomatonConfiguration configuration = automaton::shipped_configuration();
   const auto subgraph = std::ranges::find_if(
       configuration.subgraphs, [&](const auto& one) { return one.labels == std::vector{label}; });
   configuration = needed_by(*subgraph, configuration);
-  configuration.self_loops = SelfLoops::kOptimised;
+  configuration.self_loops = self_loops;
   return configuration;
 }
 
@@ -337,6 +338,28 @@ TEST(AutomatonBuilder, SelfLoopsOfMovingTrimsCanBeOptimalLikeEveryOtherEdge) {
     EXPECT_GT(automaton::state_at(*own, 0.1, automaton->vehicle).pose.x_m,
               automaton::state_at(*held, 0.1, automaton->vehicle).pose.x_m);
   }
+}
+
+TEST(AutomatonBuilder, StandstillMovesIfItsSelfLoopIsOptimisedToo) {
+  const AutomatonConfiguration configuration =
+      with_optimised_self_loops("J1", SelfLoops::kOptimisedAll);
+  const auto automaton = build_shared_automaton(configuration);
+  const automaton::Subgraph subgraph(automaton, configuration.subgraphs.front());
+  const TrimId standstill = subgraph.standstill();
+  std::vector<std::string> labels;
+  for (const automaton::Edge& edge : subgraph.successors(standstill)) {
+    if (edge.to != standstill) continue;
+    labels.push_back(edge.maneuver->label);
+    EXPECT_EQ(automaton::validate(*edge.maneuver, *automaton), "");
+    // Full throttle for half of the step, full brake for the other: a (T / 2)^2.
+    const double reach_m = configuration.limits.acceleration_mps2 * 0.1 * 0.1;
+    EXPECT_NEAR(edge.maneuver->displacement.x_m, reach_m, 0.1 * reach_m);
+  }
+  EXPECT_EQ(labels, std::vector<std::string>{"J1"});
+  const automaton::Maneuver* const fallback =
+      automaton->find(standstill, standstill, automaton::kSelfLoopLabel);
+  ASSERT_NE(fallback, nullptr);
+  EXPECT_EQ(fallback->displacement, Pose{});
 }
 
 TEST(AutomatonBuilder, UnderASpeedLimitAnOwnStepThatIsTooFastIsTheTrimItself) {

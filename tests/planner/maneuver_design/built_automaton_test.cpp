@@ -88,18 +88,23 @@ subgraphs:
 };
 
 TEST_F(BuiltAutomaton, WithOptimisedSelfLoopsReadsBackOnTheSameSubgraph) {
-  write("car.yaml", configuration_text_ + "own_steps: optimised\n");
-  const AutomatonConfiguration configuration = read_automaton_configuration(folder_ / "car.yaml");
-  write_automaton_file(file_of(configuration, build_automaton(configuration)), path_);
-  const automaton::AutomatonFile read = read_current_automaton_file(path_);
-  const automaton::Subgraph subgraph(read.automaton, read.subgraphs.front());
-  for (const TrimId trim : subgraph.trims()) {
-    const bool stands = read.automaton->trims[trim.index].is_equilibrium();
-    const automaton::Maneuver* own = read.automaton->find(trim, trim, "J2");
-    EXPECT_EQ(own->label, stands ? automaton::kSelfLoopLabel : "J2") << trim.index + 1;
-    EXPECT_TRUE(std::ranges::any_of(subgraph.successors(trim), [own](const automaton::Edge& edge) {
-      return edge.maneuver == own;
-    })) << trim.index + 1;
+  for (const bool is_standstill_too : {false, true}) {
+    SCOPED_TRACE(is_standstill_too);
+    write("car.yaml", configuration_text_ + (is_standstill_too ? "own_steps: optimised_all\n"
+                                                               : "own_steps: optimised\n"));
+    const AutomatonConfiguration configuration = read_automaton_configuration(folder_ / "car.yaml");
+    write_automaton_file(file_of(configuration, build_automaton(configuration)), path_);
+    const automaton::AutomatonFile read = read_current_automaton_file(path_);
+    const automaton::Subgraph subgraph(read.automaton, read.subgraphs.front());
+    for (const TrimId trim : subgraph.trims()) {
+      SCOPED_TRACE(trim.index + 1);
+      const bool stands = !is_standstill_too && read.automaton->trims[trim.index].is_equilibrium();
+      const automaton::Maneuver* own = read.automaton->find(trim, trim, "J2");
+      EXPECT_EQ(own->label, stands ? automaton::kSelfLoopLabel : "J2");
+      EXPECT_TRUE(std::ranges::any_of(subgraph.successors(trim), [own](const automaton::Edge& e) {
+        return e.maneuver == own;
+      }));
+    }
   }
 }
 
