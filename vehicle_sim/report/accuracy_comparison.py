@@ -45,7 +45,7 @@ def _row(axes: Axes, values: tuple, first: str, second: str, pairs: pd.DataFrame
     both = pairs[pairs.has_lap_first & pairs.has_lap_second]
     return {"settings": axes, "values": values, "first": first, "second": second, "compared": len(ratios),
             "more_accurate": (ratios < 1.0).sum(), "median_ratio": ratios.median(),
-            **difference(both.error_mean_mm_second - both.error_mean_mm_first, both.start)}
+            **difference(both.error_mean_mm_second - both.error_mean_mm_first, both.start, 2)}
 
 
 def accuracy_markdown(data: pd.DataFrame) -> str:

@@ -17,14 +17,12 @@ def failure_markdown(runs: pd.DataFrame) -> str:
     if failed.empty:
         return ""
     texts = failed.subgraph.astype(str) + ": " + failed.failure.str.replace(NUMBER, NUMBER_HERE, regex=True)
-    reasons = failed.failure.groupby(texts)
+    reasons = sorted((failures for _, failures in failed.failure.groupby(texts, sort=False)), key=len, reverse=True)
     text = f"## Runs that do not count: {len(failed)}\n\n"
-    order = reasons.size().sort_values(ascending=False, kind="stable")
-    for reason in order.index[:MOST_SHOWN]:
-        failures = reasons.get_group(reason)
+    for failures in reasons[:MOST_SHOWN]:
         text += f"* {len(failures)} times subgraph {failed.subgraph[failures.index[0]]}: {_with_ranges(failures)}\n"
-    if len(order) > MOST_SHOWN:
-        text += f"* and {len(order) - MOST_SHOWN} other reasons, see runs.csv\n"
+    if len(reasons) > MOST_SHOWN:
+        text += f"* and {len(reasons) - MOST_SHOWN} other reasons, see runs.csv\n"
     return text + "\n"
 
 

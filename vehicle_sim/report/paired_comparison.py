@@ -26,6 +26,7 @@ QUANTITIES = (
     Quantity("lap [s]", "lap_s", 3),
     Quantity("max. generated", "generated_max", 0),
 )
+FACTOR_DECIMALS = 3
 FACTOR = "log_factor"  # sqrt(D), the logarithm of the factor between our cells and the paper's
 WORDS = (
     "## What a setting does, pair by pair\n\nEach value against the setting's first one, in pairs of runs from the "
@@ -54,12 +55,13 @@ def with_families(data: pd.DataFrame, family: list[str]) -> pd.DataFrame:
     return data.assign(family=groups.transform("count"), p_corrected=corrected, holds=(corrected <= LEVEL).astype(int))
 
 
-def difference(values: pd.Series, starts: pd.Series) -> dict[str, float]:
-    """Mean, interval and p of differences."""
+def difference(values: pd.Series, starts: pd.Series, decimals: int) -> dict[str, float]:
+    """Mean, interval and p of differences. Those that are 0 with these decimals are ties: 64 starts could prove that
+    the last digit of a sum differs."""
     by_start = means_of_starts(values, starts)
     interval = interval_of_mean(by_start)
     return {"starts": interval.count, "mean": interval.mean, "half_width": interval.half_width,
-            "p": signed_rank_p(by_start)}
+            "p": signed_rank_p(by_start.round(decimals))}
 
 
 def pairs_of(runs: pd.DataFrame, sweep: Sweep, setting: str, keys: list[str]) -> pd.DataFrame:
@@ -85,12 +87,12 @@ def _rows(sweep: Sweep, axes: Axes, factors: pd.DataFrame) -> list[dict]:
                 "within": tuple(within), "value": value, "scenario": scenario, "subgraph": subgraph,
                 "quantity": one.key, "pairs": len(group), "laps_second": (group.outcome_second == LAP).sum(),
                 "laps_first": (group.outcome_first == LAP).sum(), "pairs_with_laps": len(both),
-                **difference(both[one.key + "_second"] - both[one.key + "_first"], both.start)})
+                **difference(both[one.key + "_second"] - both[one.key + "_first"], both.start, one.decimals)})
     factor_pairs = pairs_of(factors, sweep, setting, ["start"])
     for (*within, value), group in groups_of(factor_pairs, tuple(others), [column]):
         change = (group[FACTOR + "_second"] - group[FACTOR + "_first"]).dropna()
         rows.append(heading | {"within": tuple(within), "value": value, "quantity": FACTOR, "pairs": len(group),
-                               "pairs_with_laps": len(change), **difference(change, group.start)})
+                               "pairs_with_laps": len(change), **difference(change, group.start, FACTOR_DECIMALS)})
     return rows
 
 

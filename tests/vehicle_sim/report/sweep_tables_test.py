@@ -78,6 +78,13 @@ class FailureList(unittest.TestCase):
         self.assertIn("* 1 times subgraph B1: no # of 7 cars\n", text)
         self.assertEqual(failure_markdown(frame([run()])), "")
 
+    def test_one_failure_of_many_runs_is_named(self) -> None:
+        runs = frame([run(), run(), run(failure="vehicle 1 left its announced areas in 2 steps")])
+        runs["subgraph"] = runs.subgraph.astype("category")
+        runs["failure"] = runs.failure.astype(object)
+        self.assertEqual(failure_markdown(runs), "## Runs that do not count: 1\n\n"
+                         "* 1 times subgraph A: vehicle 1 left its announced areas in 2 steps\n\n")
+
     def test_counts_every_failed_run_once(self) -> None:
         for seed, generator in seeds(10):
             runs = [run(failure=f"{'abc'[generator.integers(3)]} {generator.integers(100)}") for _ in range(40)]
