@@ -91,7 +91,7 @@ def _spread(values: pd.Series, decimals: int) -> str:
 
 def _beside_paper(scenario: str, columns: list[Column]) -> str:
     own_first = sorted(PAPER_NAMES, key=lambda name: name != scenario)
-    titles = ["", "subgraph", "ours"]
+    titles = ["quantity", "subgraph", "ours"]
     for name in own_first:
         titles += [PAPER_NAMES[name], f"ours - {PAPER_NAMES[name]}"]
     rows = []
@@ -112,7 +112,7 @@ def _all_quantities(columns: list[Column]) -> str:
             for one in paper.QUANTITIES]
     rows += [[name] + [(column.runs.outcome == outcome).sum() for column in columns]
              for outcome, name in OUTCOME_NAMES.items()]
-    return markdown.table([""] + [column.name for column in columns], rows)
+    return markdown.table(["quantity"] + [column.name for column in columns], rows)
 
 
 def _notes(columns: list[Column], cars: pd.DataFrame) -> str:

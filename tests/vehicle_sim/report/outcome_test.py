@@ -26,7 +26,7 @@ def random_run(generator: np.random.Generator, start: int, **values: object) -> 
 def without_counts(data: pd.DataFrame) -> pd.DataFrame:
     """Only what is a mean, a median, an interval or a p."""
     counts = {"runs", "good_runs", LAP, NO_LAP, STUCK, FAILED, "pairs", "laps_first", "laps_second", "compared",
-              "more_accurate", "median_ratio"}
+              "more_accurate", "median_ratio", "most_in_a_step"}
     return data.drop(columns=counts & set(data.columns))
 
 

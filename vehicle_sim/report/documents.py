@@ -1,0 +1,86 @@
+"""python -m report.documents: drives the commands of documents, and makes their tables of the rows."""
+
+import argparse
+import shlex
+import subprocess
+import sys
+from functools import partial
+from pathlib import Path
+
+from report.document import commands, filled, unfounded
+from report.errors import InputError
+from report.files import replace
+from report.page_table import page_table
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCUMENTS = [ROOT / "vehicle_sim" / name for name in ("EVALUATION.md", "RECONFIGURATION.md")]
+NOT_FOUNDED, BAD_INPUT, NOT_WRITABLE, INTERRUPTED = 1, 2, 3, 130
+
+
+class _Parser(argparse.ArgumentParser):
+    """Errors are one line."""
+
+    def error(self, message: str) -> None:
+        self.exit(BAD_INPUT, f"documents: {message}, see --help\n")
+
+
+def _parse() -> argparse.Namespace:
+    parser = _Parser(
+        prog="documents.sh", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Makes the tables of documents again: drives each command `build/release/bin/... --out runs/NAME` in\n"
+                    "them, replaces each table by that of the rows, and names figures in the words that are in no table.",
+        epilog="Exit codes: 0 done, 1 a figure in the words is in no table, or a command failed, 2 invalid input,\n"
+               "3 not writable, or Python's packages cannot be installed.")
+    parser.add_argument("documents", metavar="DOCUMENT", nargs="*", type=Path, default=DOCUMENTS,
+                        help="Markdown; default: EVALUATION.md and RECONFIGURATION.md of vehicle_sim (10 minutes)")
+    parser.add_argument("--out", metavar="FOLDER", type=Path, default=ROOT / "runs" / "documents",
+                        help="in place of runs/; must not exist (default: runs/documents)")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--resume", action="store_true", help="FOLDER exists: go on in it, and keep what is complete")
+    how.add_argument("--check", action="store_true", help="only name figures in the words that are in no table")
+    return parser.parse_args()
+
+
+def _drive(command: str, out: Path) -> None:
+    """@raises InputError for a command that fails"""
+    program, *arguments = shlex.split(command)
+    place = arguments.index("--out") + 1
+    arguments[place] = str(out / Path(arguments[place]).relative_to("runs"))
+    print(command, file=sys.stderr)
+    code = subprocess.run([ROOT / program, *arguments], cwd=ROOT, stdout=subprocess.DEVNULL, check=False).returncode
+    if code not in (0, 1):  # 1: runs that do not count, which the tables have
+        raise InputError(f"{command}: exit code {code}, must be 0 or 1")
+
+
+def _update(documents: list[Path], out: Path, may_exist: bool) -> None:
+    if out.exists() and not may_exist:
+        raise InputError(f"{out}: exists, must be new, or --resume be given")
+    for command in dict.fromkeys(one for document in documents for one in commands(document)):
+        _drive(command, out)
+    texts = {document: filled(document, partial(page_table, out)) for document in documents}
+    for document, text in texts.items():
+        replace(document, lambda file, text=text: file.write_text(text, encoding="utf-8"))
+
+
+def main() -> int:
+    """@return the exit code"""
+    flags = _parse()
+    try:
+        if not flags.check:
+            _update(flags.documents, flags.out, flags.resume)
+        findings = [one for document in flags.documents for one in unfounded(document)]
+    except InputError as error:
+        print(f"documents: {error}", file=sys.stderr)
+        return BAD_INPUT
+    except OSError as error:
+        print(f"documents: {error.filename}: {error.strerror}, must be writable", file=sys.stderr)
+        return NOT_WRITABLE
+    except KeyboardInterrupt:
+        print("documents: interrupted, go on with --resume", file=sys.stderr)
+        return INTERRUPTED
+    print("\n".join(findings or ["Every figure in the words is in a table, or stated."]))
+    return NOT_FOUNDED if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

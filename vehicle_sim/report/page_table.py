@@ -1,0 +1,62 @@
+"""One table of the page report.md, found by its address.
+
+    FOLDER > HEADING > HEADING [number N] [where COLUMN = VALUE or VALUE and COLUMN = VALUE]
+
+Headings are those above the table, from outside to inside; some may be left out. N counts the tables from 1 on. A column
+of which one value remains stays; the rows keep their order.
+"""
+
+import re
+from pathlib import Path
+
+from report.errors import InputError
+from report.markdown import table
+
+ADDRESS = re.compile(r"(?P<path>.+?)(?: number (?P<number>\d+))?(?: where (?P<where>.+))?")
+CELL = re.compile(r"(?<!\\)\|")
+
+
+def page_table(runs: Path, address: str) -> str:
+    """The table as Markdown. @param runs: the folder with FOLDER. @raises InputError for one that is not there."""
+    parts = ADDRESS.fullmatch(address)
+    folder, *headings = (one.strip() for one in parts["path"].split(" > "))
+    page = runs / folder / "report.md"
+    try:
+        lines = page.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise InputError(f"{page}: {error.strerror}, must be a page of evaluate --report") from None
+    found, number = _tables(lines, headings), int(parts["number"] or 1)
+    if not 1 <= number <= len(found):
+        raise InputError(f"table {address}, {page} has {len(found)} below such headings")
+    titles, _, *rows = ([cell.strip().replace("\\|", "|") for cell in CELL.split(line)[1:-1]] for line in found[number - 1])
+    for condition in (parts["where"] or "").split(" and ") if parts["where"] else []:
+        column, _, values = condition.partition(" =")
+        if column not in titles:
+            raise InputError(f"table {address}: column {column}, must be one of {', '.join(titles)}")
+        rows = [row for row in rows if row[titles.index(column)] in values.strip().split(" or ")]
+        if not rows:
+            raise InputError(f"table {address}: no row with {condition}")
+    return table(titles, rows).rstrip("\n") + "\n"
+
+
+def _tables(lines: list[str], headings: list[str]) -> list[list[str]]:
+    """All tables below these headings."""
+    above: dict[int, str] = {}
+    tables, is_open = [], False
+    for line in lines:
+        if heading := re.fullmatch(r"(#+) (.+)", line):
+            level = len(heading[1])
+            above = {depth: text for depth, text in above.items() if depth < level} | {level: heading[2]}
+        is_row = line.startswith("|")
+        if is_row and not is_open and _is_below(list(above.values()), headings):
+            tables.append([])
+        if is_row and tables and _is_below(list(above.values()), headings):
+            tables[-1].append(line)
+        is_open = is_row
+    return tables
+
+
+def _is_below(above: list[str], headings: list[str]) -> bool:
+    """Whether they occur among those above, in this order."""
+    rest = iter(above)
+    return all(heading in rest for heading in headings)
