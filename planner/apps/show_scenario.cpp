@@ -29,9 +29,12 @@ void print_table(const hlc::scenario::Scenario& scenario) {
     std::string names = hlc::policy::kNoPolicy;
     for (const auto& [name, settings] : scenario.policies) names += ", " + name;
     std::printf("policy     %s (of %s)\n", scenario.policy.c_str(), names.c_str());
+    const bool is_reference =
+        scenario.reconfiguration.zones_limit == hlc::policy::ZonesLimit::kReference;
     for (const hlc::policy::SpeedZone& zone : scenario.reconfiguration.zones) {
-      std::printf("zone       %g m/s, x %g ... %g m, y %g ... %g m\n", zone.max_speed_mps,
-                  zone.min_x_m, zone.max_x_m, zone.min_y_m, zone.max_y_m);
+      std::printf("zone       %g m/s%s, x %g ... %g m, y %g ... %g m\n", zone.max_speed_mps,
+                  is_reference ? " of the reference" : "", zone.min_x_m, zone.max_x_m, zone.min_y_m,
+                  zone.max_y_m);
     }
   }
   std::printf("%4s  %-10s %9s %9s %9s %11s\n", "id", "name", "path [m]", "start [m]", "x [m]",

@@ -77,6 +77,10 @@ class Controller {
   /// Applies to each search from now on. Not in the middle of a step.
   void set_max_expansions(std::size_t max_expansions);
 
+  /// ControllerOptions::reference_speed_mps from the next step on, part of the `planning_basis`.
+  /// @param speed_mps  > 0
+  void set_reference_speed(double speed_mps);
+
   /// Another order and rule of coordination from the next step on; all vehicles of a run need the
   /// same. Not in the middle of a step.
   void coordinate_by(const coordination::PriorityRule& priorities, const CoordinationRule& rule);

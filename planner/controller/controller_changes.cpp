@@ -13,6 +13,11 @@ void Controller::set_max_expansions(std::size_t max_expansions) {
   search_.set_max_expansions(max_expansions);
 }
 
+void Controller::set_reference_speed(double speed_mps) {
+  HLC_DEMAND(speed_mps > 0.0, speed_mps);
+  options_.reference_speed_mps = speed_mps;
+}
+
 void Controller::coordinate_by(const coordination::PriorityRule& priorities,
                                const CoordinationRule& rule) {
   options_.strategies.priorities = priorities;

@@ -16,7 +16,7 @@ std::optional<SubgraphRequest> LookAhead::propose(const PolicyView& /*view*/) {
   return settings_.candidates[*chosen_];
 }
 
-void LookAhead::look_ahead(const controller::Controller& controller, const PreparedFor& prepared) {
+void LookAhead::look_ahead(const controller::Controller& controller, const SwitchTo& switch_to) {
   constexpr double kUnknown_m2 = std::numeric_limits<double>::infinity();
   const LookAheadRolloutSettings rollout{
       .steps = settings_.steps,
@@ -25,10 +25,7 @@ void LookAhead::look_ahead(const controller::Controller& controller, const Prepa
       .most_expansions = settings_.steps * settings_.max_expansions};
   std::vector<double> costs_m2;
   for (const SubgraphRequest& candidate : settings_.candidates) {
-    const auto on_candidate = [&](controller::Controller& ahead) {
-      const controller::PreparedSubgraph& now = prepared(candidate, ahead);
-      if (ahead.prepared_subgraph().subgraph != now.subgraph) ahead.switch_to(now);
-    };
+    const auto on_candidate = [&](controller::Controller& ahead) { switch_to(candidate, ahead); };
     costs_m2.push_back(rollout_cost_m2(controller, rollout, on_candidate).value_or(kUnknown_m2));
   }
   const auto best = std::ranges::min_element(costs_m2);

@@ -23,7 +23,7 @@ class LookAhead final : public Policy {
   std::optional<SubgraphRequest> propose(const PolicyView& view) override;
   std::vector<SubgraphRequest> choices() const override { return settings_.candidates; }
   bool looks_ahead() const override { return true; }
-  void look_ahead(const controller::Controller& controller, const PreparedFor& prepared) override;
+  void look_ahead(const controller::Controller& controller, const SwitchTo& switch_to) override;
 
  private:
   LookAheadSettings settings_;

@@ -18,10 +18,9 @@ struct PolicyView {
   std::optional<double> battery_v{};   ///< none if unknown
 };
 
-/// The subgraph of a request for a controller at its current place: with the speed limits that hold
-/// there.
-using PreparedFor = std::function<const controller::PreparedSubgraph&(
-    const SubgraphRequest& request, const controller::Controller&)>;
+/// Switches a controller to the subgraph of a request, with the speed limits that hold at the
+/// controller's current place.
+using SwitchTo = std::function<void(const SubgraphRequest& request, controller::Controller&)>;
 
 /// Proposes the subgraph to plan on. One object per vehicle; may have a state.
 class Policy {
@@ -39,7 +38,7 @@ class Policy {
   /// Called after a step if a proposal may be needed in the next one, when the step's messages and
   /// command are published. @pre the controller is not in the middle of a step
   virtual void look_ahead(const controller::Controller& /*controller*/,
-                          const PreparedFor& /*prepared*/) {}
+                          const SwitchTo& /*switch_to*/) {}
 };
 
 [[nodiscard]] std::unique_ptr<Policy> make_policy(const PolicySettings& settings);

@@ -69,9 +69,16 @@ using PolicySettings = std::variant<TimePolicySettings, SituationPolicySettings,
 /// Name for no zones and no policies.
 inline constexpr const char* kNoPolicy = "none";
 
+/// What the limit of a zone holds for.
+enum class ZonesLimit {
+  kSubgraph,   ///< every trim that is planned on, and so the reference
+  kReference,  ///< the reference only: plans may be faster
+};
+
 /// How a vehicle's controller chooses its subgraph without external requests.
 struct ReconfigurationSettings {
   std::vector<SpeedZone> zones;
+  ZonesLimit zones_limit{ZonesLimit::kSubgraph};  ///< of all zones
   std::vector<PolicySettings> policies;  ///< of several with an opinion the first one counts
   /// A proposal stays at least this long, so that the subgraph does not flicker, unless a policy
   /// before it in the list has an opinion: at most two changes in that time; >= 0.

@@ -19,10 +19,10 @@ constexpr std::size_t kStepsUntilItSlowsDown = 3;
 SubgraphSelector::SubgraphSelector(const controller::Controller& controller,
                                    const ReconfigurationSettings& settings)
     : base_(controller.prepared_subgraph()),
-      zones_(settings.zones),
-      limits_mps_(policy::limits_mps(zones_)),
-      step_s_(base_.subgraph->automaton().step_s),
-      min_stay_s_(settings.min_stay_s) {
+      settings_(settings),
+      reference_speed_mps_(controller.options().reference_speed_mps),
+      limits_mps_(policy::limits_mps(settings.zones)),
+      step_s_(base_.subgraph->automaton().step_s) {
   const controller::ControllerOptions& options = controller.options();
   for (const SubgraphRequest& request : requests_of(settings)) {
     choices_.emplace_back(request, PreparedChoice(base_, request, limits_mps_,
@@ -58,23 +58,36 @@ SubgraphSelector::Decision SubgraphSelector::decision() const {
                     .is_operators = operator_ != nullptr,
                     .policy = {},
                     .zone = zone_,
+                    .subgraph_limit_mps = subgraph_limit_mps(zone_),
                     .own = &prepared({})};
   if (!operator_ && proposed_by_ != kNoPolicyCounts) decision.policy = proposed_by_;
   return decision;
 }
 
-std::optional<double> SubgraphSelector::limit_of(std::optional<std::size_t> zone) const {
-  if (!zone) return std::nullopt;
+std::optional<double> SubgraphSelector::subgraph_limit_mps(std::optional<std::size_t> zone) const {
+  if (!zone || settings_.zones_limit != ZonesLimit::kSubgraph) return std::nullopt;
   return limit_mps(*zone);
+}
+
+bool SubgraphSelector::apply(const PreparedChoice& choice, std::optional<std::size_t> zone,
+                             controller::Controller& controller) const {
+  if (settings_.zones_limit == ZonesLimit::kReference) {
+    const double most_mps = zone ? limit_mps(*zone) : reference_speed_mps_;
+    controller.set_reference_speed(std::min(reference_speed_mps_, most_mps));
+  }
+  const controller::PreparedSubgraph& next = choice.under(subgraph_limit_mps(zone));
+  if (next.subgraph == controller.prepared_subgraph().subgraph) return false;
+  controller.switch_to(next);
+  return true;
 }
 
 std::optional<std::size_t> SubgraphSelector::zone_for(const controller::Controller& controller,
                                                       StepIndex step) const {
-  if (zones_.empty() || !controller.has_plan()) return std::nullopt;
+  if (settings_.zones.empty() || !controller.has_plan()) return std::nullopt;
   const std::optional<double> s_m =
       controller.path_s_m_of(controller.plan_in_force().pose_at(step).position_m());
   if (!s_m) return std::nullopt;
-  return least_zone_on(zones_, controller.route().path, *s_m, zone_ahead_m_);
+  return least_zone_on(settings_.zones, controller.route().path, *s_m, zone_ahead_m_);
 }
 
 void SubgraphSelector::let_policies_choose(StepIndex step, StepIndex start,
@@ -94,7 +107,7 @@ void SubgraphSelector::let_policies_choose(StepIndex step, StepIndex start,
   }
   if (proposed == proposed_) return;
   const bool has_stayed =
-      !proposed_since_ || seconds_since(*proposed_since_) + kStepRounding_s >= min_stay_s_;
+      !proposed_since_ || seconds_since(*proposed_since_) + kStepRounding_s >= settings_.min_stay_s;
   if (!has_stayed && counts_ >= proposed_by_) return;
   proposed_ = proposed;
   proposed_by_ = counts_;
@@ -105,10 +118,7 @@ bool SubgraphSelector::begin_step(controller::Controller& controller, StepIndex 
                                   std::optional<StepIndex> start, std::optional<double> battery_v) {
   if (start) let_policies_choose(step, *start, battery_v);
   zone_ = zone_for(controller, step);
-  const controller::PreparedSubgraph& next = in_force().under(limit_of(zone_));
-  if (next.subgraph == controller.prepared_subgraph().subgraph) return false;
-  controller.switch_to(next);
-  return true;
+  return apply(in_force(), zone_, controller);
 }
 
 bool SubgraphSelector::looks_ahead() const {
@@ -119,13 +129,11 @@ void SubgraphSelector::end_step(const controller::Controller& controller,
                                 const coordination::Report& report, bool may_look_ahead) {
   last_ = report;
   if (operator_ || !may_look_ahead) return;
-  const auto limited =
-      [this](const SubgraphRequest& request,
-             const controller::Controller& one) -> const controller::PreparedSubgraph& {
-    return prepared(request).under(limit_of(zone_for(one, {one.last_step().value + 1})));
+  const auto switch_to = [this](const SubgraphRequest& request, controller::Controller& one) {
+    apply(prepared(request), zone_for(one, {one.last_step().value + 1}), one);
   };
   for (std::size_t i = 0; i < policies_.size(); ++i) {
-    if (i <= counts_) policies_[i]->look_ahead(controller, limited);
+    if (i <= counts_) policies_[i]->look_ahead(controller, switch_to);
   }
 }
 

@@ -17,7 +17,8 @@ namespace hlc::policy {
 /// this order:
 ///
 /// 1. *Safety*: in and before a speed zone its limit holds, whatever the request; of several zones
-///    the lowest one.
+///    the lowest one. With ZonesLimit::kReference it limits the reference instead of the subgraph,
+///    and plans may exceed it: a baseline to compare with.
 /// 2. The *operator*: the last request, until the operator requests the scenario's own subgraph
 ///    again (the empty request), which gives the vehicle back to
 /// 3. its *policies*, of which the first with an opinion counts. A proposal stays at least
@@ -64,12 +65,18 @@ class SubgraphSelector {
     bool is_operators{};                ///< it is the operator's
     std::optional<std::size_t> policy;  ///< otherwise: index of the policy that proposed it, if any
     std::optional<std::size_t> zone;    ///< index of the zone whose limit holds, if any
-    const PreparedChoice* own{};        ///< the scenario's own subgraph instead of a request
+    std::optional<double> subgraph_limit_mps;  ///< that limit, if zones limit the subgraph
+    const PreparedChoice* own{};               ///< the scenario's own subgraph instead of a request
   };
   /// @pre `begin_step` was called, and nothing since that changes what is in force
   [[nodiscard]] Decision decision() const;
   /// @param zone  index of a zone
-  [[nodiscard]] double limit_mps(std::size_t zone) const { return zones_[zone].max_speed_mps; }
+  [[nodiscard]] double limit_mps(std::size_t zone) const {
+    return settings_.zones[zone].max_speed_mps;
+  }
+
+  /// Of the controller where no zone limits it: ControllerOptions::reference_speed_mps.
+  [[nodiscard]] double reference_speed_mps() const { return reference_speed_mps_; }
 
   /// True if policies look ahead after the next step.
   [[nodiscard]] bool looks_ahead() const;
@@ -85,16 +92,19 @@ class SubgraphSelector {
   [[nodiscard]] const PreparedChoice& in_force() const;
   [[nodiscard]] std::optional<std::size_t> zone_for(const controller::Controller& controller,
                                                     StepIndex step) const;
-  [[nodiscard]] std::optional<double> limit_of(std::optional<std::size_t> zone) const;
+  [[nodiscard]] std::optional<double> subgraph_limit_mps(std::optional<std::size_t> zone) const;
+  /// True if it switches the controller.
+  bool apply(const PreparedChoice& choice, std::optional<std::size_t> zone,
+             controller::Controller& controller) const;
   void see_zones_for(const PreparedChoice& choice);
   void let_policies_choose(StepIndex step, StepIndex start, std::optional<double> battery_v);
 
   controller::PreparedSubgraph base_;
-  std::vector<SpeedZone> zones_;
+  ReconfigurationSettings settings_;
+  double reference_speed_mps_{};
   std::vector<double> limits_mps_;
   double zone_ahead_m_{};
   double step_s_{};
-  double min_stay_s_{};
   std::vector<std::unique_ptr<Policy>> policies_;
   std::vector<std::pair<SubgraphRequest, PreparedChoice>> choices_;
 

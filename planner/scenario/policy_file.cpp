@@ -133,11 +133,19 @@ policy::PolicySettings read_rule(const Node& node) {
   node.fail("a map of one key: time, situation, battery or look_ahead");
 }
 
+policy::ZonesLimit read_zones_limit(const Node& node) {
+  if (!node.has("zones_limit")) return policy::ZonesLimit::kSubgraph;
+  const auto limited = node.required<std::string>("zones_limit", one_of({"reference", "subgraph"}));
+  if (!node.has("zones")) node.fail("zones_limit", "absent, unless there are `zones`");
+  return limited == "reference" ? policy::ZonesLimit::kReference : policy::ZonesLimit::kSubgraph;
+}
+
 policy::ReconfigurationSettings read_policy(const Node& node) {
   policy::ReconfigurationSettings settings;
   for (const Node& zone : node.optional_list("zones")) {
     settings.zones.push_back(read_zone(zone));
   }
+  settings.zones_limit = read_zones_limit(node);
   for (const Node& rule : node.optional_list("rules")) {
     settings.policies.push_back(read_rule(rule));
   }

@@ -15,6 +15,7 @@ namespace hlc::scenario {
 /// Reads the map `policies` of a scenario, by name. Each entry (specified in planner/policy):
 ///
 ///     zones        list of {x_m: [from, to], y_m: [from, to], max_speed_mps}, may be absent
+///     zones_limit  subgraph (default) or reference, only with zones
 ///     rules        list, may be absent; each entry one of
 ///       time         list of {from_s, request}, by time
 ///       situation    {open_road: request, conflict: request, after_conflict_s (default 1)}

@@ -112,6 +112,15 @@ class Limits {
     limits.push_back(compared(std::move(name), controller_.plan_without({}, on)));
   }
 
+  /// With another reference speed; adds nothing if it is that of the step.
+  void add_at(std::string name, double reference_speed_mps,
+              std::vector<ExplainedStep::Limit>& limits) const {
+    if (reference_speed_mps == controller_.options().reference_speed_mps) return;
+    Controller other = controller_;
+    other.set_reference_speed(reference_speed_mps);
+    limits.push_back(compared(std::move(name), other.plan_without({})));
+  }
+
  private:
   /// The problems differ in their references if the end of an authority cuts one of them, or the
   /// vehicle is held up elsewhere: both plans are compared in the problem without the limit.
@@ -140,13 +149,14 @@ std::vector<VehicleId> in_problem(const Report& report) {
 void add_chosen(const Limits& limits, const policy::SubgraphSelector& chosen,
                 const std::string& policy, std::vector<ExplainedStep::Limit>& found) {
   const policy::SubgraphSelector::Decision decision = chosen.decision();
-  std::optional<double> limit_mps;
-  if (decision.zone) limit_mps = chosen.limit_mps(*decision.zone);
   if (decision.zone) {
-    limits.add_on(zone_name(chosen, policy), decision.choice->under(std::nullopt), found);
+    const std::string name = zone_name(chosen, policy);
+    limits.add_on(name, decision.choice->under(std::nullopt), found);
+    limits.add_at(name, chosen.reference_speed_mps(), found);
   }
   if (decision.choice != decision.own) {
-    limits.add_on(request_name(chosen, policy), decision.own->under(limit_mps), found);
+    limits.add_on(request_name(chosen, policy), decision.own->under(decision.subgraph_limit_mps),
+                  found);
   }
 }
 

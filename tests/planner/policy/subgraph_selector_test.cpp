@@ -155,6 +155,52 @@ TEST_F(SubgraphSelectorTest, NoCarIsTooFastInAZone) {
   EXPECT_GT(car_->plan_in_force().pose_at(car_.next_step()).x_m, slow.max_x_m + 1.0);
 }
 
+// On the same road, where only the reference is limited: the label whose maneuvers outrun their
+// trims stays, and no trim is left out, but the car is drawn to the limit, from the same place on.
+TEST_F(SubgraphSelectorTest, ZonesThatLimitTheReferenceLeaveTheSubgraphAsItIs) {
+  const SpeedZone slow = zone(2.0, 4.0, 0.4);
+  const auto limited = [&slow](ZonesLimit zones_limit) {
+    return ReconfigurationSettings{
+        .zones = {slow},
+        .zones_limit = zones_limit,
+        .policies = {TimePolicySettings{.changes = {{0.0, {.labels = {"slow", "fast"}}}}}}};
+  };
+  use(limited(ZonesLimit::kSubgraph));
+  const double ahead_m = selector_->zone_ahead_m();
+  use(limited(ZonesLimit::kReference));
+  EXPECT_EQ(selector_->zone_ahead_m(), ahead_m);
+  static_cast<void>(drive());
+  const std::uint64_t basis = car_->planning_basis();
+  int slow_steps = 0;
+  for (int k = 0; k < 75; ++k) {
+    const double x_m = car_->plan_in_force().pose_at(car_.next_step()).x_m;
+    const bool is_slow = x_m + ahead_m >= slow.min_x_m && x_m <= slow.max_x_m;
+    slow_steps += is_slow ? 1 : 0;
+    EXPECT_EQ(drive(), "slow, labels slow, fast");
+    EXPECT_EQ(car_->options().reference_speed_mps, is_slow ? 0.4 : 0.8) << "at x = " << x_m;
+    EXPECT_EQ(selector_->decision().zone.has_value(), is_slow);
+    EXPECT_EQ(selector_->decision().subgraph_limit_mps, std::nullopt);
+    EXPECT_EQ(car_->planning_basis() != basis, is_slow) << "others cannot plan for it";
+    if (x_m < slow.min_x_m + 0.5 || x_m > slow.max_x_m) continue;
+    const double driven_m = car_->plan_in_force().pose_at(car_.next_step()).x_m - x_m;
+    EXPECT_NEAR(driven_m, 0.4 * car_->subgraph().automaton().step_s, 0.02) << "at x = " << x_m;
+  }
+  EXPECT_GT(slow_steps, 20);
+  EXPECT_GT(car_->plan_in_force().pose_at(car_.next_step()).x_m, slow.max_x_m + 1.0);
+}
+
+TEST_F(SubgraphSelectorTest, ALookAheadHasTheLimitedReferenceInARollout) {
+  use({.zones = {zone(-1.0, 100.0, 0.4)},
+       .zones_limit = ZonesLimit::kReference,
+       .policies = {LookAheadSettings{.candidates = {kSlowLabel, {.max_speed_mps = 0.5}},
+                                      .steps = 4,
+                                      .max_expansions = 10'000}},
+       .min_stay_s = 0.0});
+  for (int k = 0; k < 6; ++k) static_cast<void>(drive());
+  EXPECT_EQ(drive(), "slow, label slow") << "a limit of 0.5 m/s costs nothing";
+  EXPECT_EQ(car_->options().reference_speed_mps, 0.4);
+}
+
 // Where it is in a fallback is not where it planned last.
 TEST_F(SubgraphSelectorTest, AZoneIsSeenFromWhereTheCarIsAlsoWhenNothingNewIsPlanned) {
   use({.zones = {zone(1.5, 3.0, 0.4)}});

@@ -54,6 +54,11 @@ policies:
       .policies = {},
       .min_stay_s = 1.0};
   EXPECT_EQ(policies.at("zone"), zone);
+  const std::string zones =
+      "policies: {a: {zones: [{x_m: [1, 2], y_m: [-1, 3.5], max_speed_mps: 0.5}]";
+  EXPECT_EQ(read(zones + ", zones_limit: reference}}").at("a").zones_limit,
+            policy::ZonesLimit::kReference);
+  EXPECT_EQ(read(zones + ", zones_limit: subgraph}}").at("a"), read(zones + "}}").at("a"));
   const SubgraphRequest slow{.labels = {"slow"}};
   const policy::ReconfigurationSettings rules{
       .zones = {},
@@ -83,6 +88,10 @@ TEST(PolicyFile, WhatCannotBeIsRefusedInOneLineWithPlaceAndWhatIsAllowed) {
       {"a: {zones: [{x_m: [2], y_m: [0, 1], max_speed_mps: 0.5}]}", "two numbers, [from, to]"},
       {"a: {zones: [{x_m: [1, 2], y_m: [0, 1], max_speed_mps: 0.2}]}",
        "policies.a = (a map): in the zone of 0.2 m/s: speed limit 0.2 m/s, must be >= 0.4"},
+      {"a: {zones_limit: car, zones: [{x_m: [1, 2], y_m: [0, 1], max_speed_mps: 0.5}]}",
+       "zones_limit = car, must be one of reference, subgraph"},
+      {"a: {zones_limit: reference, min_stay_s: 2}",
+       "zones_limit = reference, must be absent, unless there are `zones`"},
       {"a: {rules: [{weather: {}}]}", "policies.a.rules[1] = (a map), must be a map of one key"},
       {"a: {rules: [{time: []}]}", "at least one entry"},
       {"a: {rules: [{time: [{from_s: 2, request: {}}, {from_s: 1, request: {}}]}]}",
@@ -129,7 +138,7 @@ TEST(PolicyFile, TheScenariosPolicyHoldsUnlessAnotherIsChosen) {
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
                  "--policy = zones, must be one of none, look_ahead, mixed, situation, time, zone, "
-                 "zone_look_ahead");
+                 "zone_look_ahead, zone_reference");
   }
 }
 

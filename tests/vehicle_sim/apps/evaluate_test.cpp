@@ -371,7 +371,7 @@ TEST_F(EvaluatePolicies, AreRefusedByTheirFlagWithThoseThatThereAre) {
   for (const auto& [flags, message] :
        {std::pair{"--policies zones",
                   "reconfiguration.yaml: look_ahead, mixed, situation, time, zone, "
-                  "zone_look_ahead\n"},
+                  "zone_look_ahead, zone_reference\n"},
         {"--policies none", "(fixed subgraphs, --subgraphs, are driven without one)\n"},
         {"--policies zone --scenario paper_red_alone", "paper_red_alone.yaml: it has none\n"}}) {
     const Outcome outcome = drive(flags);

@@ -143,6 +143,21 @@ TEST(StepAnswers, AZoneAndTheRuleOfAPolicyAreNamedAndTheZoneCostsWay) {
   EXPECT_THAT(requests, testing::Contains("rule 2 of policy mixed (J2, label comfort)"));
 }
 
+TEST(StepAnswers, AZoneThatLimitsTheReferenceIsNamedAndCostsWay) {
+  const scenario::Scenario scenario = scenario::read_scenario(reconfiguration("zone_reference"));
+  double farther_m = 0.0;
+  drive(scenario, {.steps = 12}, [&](const Seen& seen) {
+    const StepAnswers answers =
+        answers_of(seen.controller, seen.chosen, seen.report, scenario.policy);
+    const ExplainedStep::Limit* const zone = named(answers, "zone 1 of policy zone_reference");
+    ASSERT_TRUE(zone == nullptr || seen.chosen.decision().zone.has_value());
+    if (zone == nullptr) return;
+    EXPECT_LE(*zone->extra_m2, 1e-9);
+    farther_m = std::max(farther_m, *zone->ahead_m - ahead_m(seen.controller));
+  });
+  EXPECT_GT(farther_m, 0.01) << "farther without the limit";
+}
+
 TEST(StepAnswers, WhatAForkRequestsIsALimitFromThereOn) {
   const scenario::Scenario scenario = scenario::read_scenario(reconfiguration("none"));
   const closed_loop::Fork fork{

@@ -75,7 +75,8 @@ TEST(Policies, WhatTheScenarioDoesNotHaveIsRefusedWithWhatItHas) {
       },
       ThrowsMessage<std::invalid_argument>(
           AllOf(HasSubstr("--policies = zones, must be one of " + kScenario),
-                HasSubstr(": look_ahead, mixed, situation, time, zone, zone_look_ahead"))));
+                HasSubstr(": look_ahead, mixed, situation, time, zone, zone_look_ahead, "
+                          "zone_reference"))));
   EXPECT_THAT([] { Campaign(plan({}, {"none"})); },
               ThrowsMessage<std::invalid_argument>(
                   AllOf(HasSubstr("--policies = none, must be one of"), HasSubstr("--subgraphs"))));
