@@ -268,6 +268,11 @@ bool Controller::may_plan() const {
 
 coordination::Prediction Controller::plan(
     const coordination::ReceivedMessages<coordination::Prediction>& received) {
+  if (has_kept_plan_for(received)) {
+    step_.before_plan.reset();
+    return step_.prediction;
+  }
+  drop_kept_plan();
   respect_predecessors(received);
   check_start();
   if (may_plan()) {
@@ -359,6 +364,7 @@ void Controller::note_awaited(
 }
 
 coordination::Report Controller::fall_back(coordination::FallbackReason reason) {
+  drop_kept_plan();
   return finish(false, reason);
 }
 

@@ -152,8 +152,14 @@ class Controller {
   class Coupled;
   /// After the second phase, to plan again from there. @pre is_settled
   [[nodiscard]] Coupled coupled_state() const;
+  /// The same, moved out of this object: `restore` must follow.
+  [[nodiscard]] Coupled take_state();
   /// @param state  of this object in this step
-  void restore(const Coupled& state);
+  void restore(Coupled state);
+  /// After `plan`, any time before the owner calls it: `plan` then returns this result at once if
+  /// it is given the same predictions; otherwise, or before `fall_back`, the object goes back.
+  /// @param before  `coupled_state` before the first of these calls
+  void keep_plan(std::shared_ptr<const Coupled> before);
   /// Only the current subgraph may be planned on.
   [[nodiscard]] bool is_settled() const { return search_.is_settled(); }
   /// What the plan of the third phase costs, for the whole reference; none if there is no new plan.
@@ -302,7 +308,8 @@ class Controller {
         coordination::FallbackReason::kNone};  ///< why nothing new may be planned
     bool is_vehicle_lost{};
     bool is_vehicle_elsewhere{};
-    bool is_disturbed{};  ///< DeviationCheck
+    bool is_disturbed{};                         ///< DeviationCheck
+    std::shared_ptr<const Coupled> before_plan;  ///< of `keep_plan`; null: none is kept
 
     [[nodiscard]] StepIndex next() const { return {observation.step.value + 1}; }
   };
@@ -318,6 +325,9 @@ class Controller {
   void extend_authority(SharedStep& shared);
   void respect_predecessors(
       const coordination::ReceivedMessages<coordination::Prediction>& received);
+  [[nodiscard]] bool has_kept_plan_for(
+      const coordination::ReceivedMessages<coordination::Prediction>& received) const;
+  void drop_kept_plan();
   void check_start();
   [[nodiscard]] double reach_m() const { return search_.reach_m(step_.traffic.next_trim); }
   static constexpr double kNoEnd_m = std::numeric_limits<double>::infinity();

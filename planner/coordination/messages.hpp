@@ -23,6 +23,7 @@ struct OccupiedAreas {
 
   /// @pre step >= first
   [[nodiscard]] const ConvexPolygon& during(StepIndex step) const;
+  friend bool operator==(const OccupiedAreas&, const OccupiedAreas&) = default;
 };
 
 /// Part of a plan: the maneuver (or self-loop) of one step.
@@ -77,6 +78,7 @@ struct Prediction {
   /// (controller/making_room.hpp). Absent: it desires nothing else, or the rule knows no such
   /// plans.
   std::optional<OccupiedAreas> desired{};
+  friend bool operator==(const Prediction&, const Prediction&) = default;
 };
 
 /// False for an invalid message: an empty area (the sender would be nowhere), or areas that do not

@@ -28,14 +28,14 @@ std::vector<VehicleId> cheapest_of_all_orders(const CouplingGraph& graph,
                                               const TryOrder& plan, std::size_t most_expanded) {
   std::set<std::vector<bool>> tried{directions(graph, start)};
   std::vector<VehicleId> best = start;
-  OrderCost least = plan(start);
+  OrderCost least = plan(start, nullptr);
   std::size_t expanded = least.expanded;
   std::vector<VehicleId> order = start;
   std::ranges::sort(order);
   do {
     if (expanded >= most_expanded) break;
     if (!tried.insert(directions(graph, order)).second) continue;
-    OrderCost cost = plan(order);
+    OrderCost cost = plan(order, &least);
     expanded += cost.expanded;
     if (!is_better(cost, least)) continue;
     least = std::move(cost);

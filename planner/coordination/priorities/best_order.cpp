@@ -17,11 +17,22 @@ constexpr std::size_t kFew = 4;  // 24 orders
 class Promotions {
  public:
   Promotions(const CouplingGraph& graph, std::vector<VehicleId> start, const TryOrder& plan)
-      : graph_(&graph), plan_(&plan), best_(std::move(start)), least_(plan_all(best_)) {}
+      : graph_(&graph), plan_(&plan), best_(std::move(start)), least_((*plan_)(best_, nullptr)) {
+    expanded_ = least_.expanded;
+    for (const VehicleId one : best_) {
+      if (is_used_up()) break;
+      const OrderCost alone = (*plan_)({one}, nullptr);
+      expanded_ += alone.expanded;
+      alone_m2_[one] = alone.costs_m2.front();
+    }
+  }
 
   [[nodiscard]] std::vector<VehicleId> result() && {
-    std::vector<VehicleId> reversed(best_.rbegin(), best_.rend());
-    if (!is_used_up()) static_cast<void>(take_if_better(std::move(reversed)));
+    if (!is_any_late()) return std::move(best_);
+    if (best_.size() <= kFew) {
+      return cheapest_of_all_orders(*graph_, best_, *plan_, kMostOrderExpansions - expanded_);
+    }
+    static_cast<void>(take_if_better({best_.rbegin(), best_.rend()}));
     while (promote_any()) {
     }
     return std::move(best_);
@@ -30,18 +41,30 @@ class Promotions {
  private:
   [[nodiscard]] bool is_used_up() const { return expanded_ >= kMostOrderExpansions; }
 
+  /// What it costs a vehicle that it does not plan first.
+  [[nodiscard]] double regret_m2(std::size_t place) const {
+    const auto alone_m2 = alone_m2_.find(best_[place]);
+    const bool is_known = alone_m2 != alone_m2_.end() && std::isfinite(alone_m2->second);
+    return is_known ? least_.costs_m2[place] - alone_m2->second : 0.0;
+  }
+
+  /// Otherwise no order is better than the best one, or the budget is used up.
+  [[nodiscard]] bool is_any_late() const {
+    if (is_used_up()) return false;
+    for (std::size_t i = 0; i < best_.size(); ++i) {
+      if (regret_m2(i) > 0.0) return true;
+    }
+    return false;
+  }
+
   /// False: no promotion helps, or the budget is used up.
   bool promote_any() {
-    std::vector<VehicleId> by_regret = best_;
-    std::map<VehicleId, double> regret;
+    std::vector<std::pair<double, VehicleId>> late;
     for (std::size_t i = 0; i < best_.size(); ++i) {
-      const double cheapest_m2 = cheapest_.at(best_[i]);
-      const bool has_ever_planned = std::isfinite(cheapest_m2);
-      regret[best_[i]] = has_ever_planned ? least_.costs_m2[i] - cheapest_m2 : 0.0;
+      if (regret_m2(i) > 0.0) late.emplace_back(regret_m2(i), best_[i]);
     }
-    std::ranges::stable_sort(by_regret, std::greater<>{},
-                             [&regret](VehicleId one) { return regret.at(one); });
-    return std::ranges::any_of(by_regret, [this](VehicleId one) { return promote(one); });
+    std::ranges::stable_sort(late, std::greater<>{}, [](const auto& one) { return one.first; });
+    return std::ranges::any_of(late, [this](const auto& one) { return promote(one.second); });
   }
 
   /// Before all others, or before the last one that it has to make way for.
@@ -52,8 +75,8 @@ class Promotions {
     if (last == best_.begin()) return false;  // it makes way for nobody
     const auto place = own - best_.begin();
     const auto before_last = last - best_.begin() - 1;
-    return (!is_used_up() && take_if_better(moved(place, 0))) ||
-           (before_last > 0 && !is_used_up() && take_if_better(moved(place, before_last)));
+    return take_if_better(moved(place, 0)) ||
+           (before_last > 0 && take_if_better(moved(place, before_last)));
   }
 
   [[nodiscard]] std::vector<VehicleId> moved(std::ptrdiff_t from, std::ptrdiff_t to) const {
@@ -62,46 +85,37 @@ class Promotions {
     return order;
   }
 
+  /// Not if the budget is used up.
   bool take_if_better(std::vector<VehicleId> order) {
-    OrderCost cost = plan_all(order);
+    if (is_used_up()) return false;
+    OrderCost cost = (*plan_)(order, &least_);
+    expanded_ += cost.expanded;
     if (!is_better(cost, least_)) return false;
     least_ = std::move(cost);
     best_ = std::move(order);
     return true;
   }
 
-  OrderCost plan_all(const std::vector<VehicleId>& order) {
-    OrderCost cost = (*plan_)(order);
-    expanded_ += cost.expanded;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const auto [known, is_first] = cheapest_.emplace(order[i], cost.costs_m2[i]);
-      if (!is_first) known->second = std::min(known->second, cost.costs_m2[i]);
-    }
-    return cost;
-  }
-
   const CouplingGraph* graph_;
   const TryOrder* plan_;
   std::size_t expanded_{};
-  std::map<VehicleId, double> cheapest_;  ///< of all orders tried
+  std::map<VehicleId, double> alone_m2_;  ///< costs of those that plan first
   std::vector<VehicleId> best_;
   OrderCost least_;
 };
 
 std::vector<VehicleId> promoted(const CouplingGraph& graph, const std::vector<VehicleId>& start,
                                 const TryOrder& plan) {
-  if (start.size() <= kFew) {
-    return cheapest_of_all_orders(graph, start, plan, kMostOrderExpansions);
-  }
   return Promotions(graph, start, plan).result();
 }
 
 }  // namespace
 
-/// All orders of up to 4 vehicles. Of more a local search: the better of the order and its reverse;
-/// then the vehicle whose plan costs most above its cheapest one so far is moved to the front, or
-/// before the last one that it has to make way for, as long as that makes the plans cheaper all in
-/// all. Ends after kMostOrderExpansions.
+/// The order to start from, where no vehicle would pay less if it planned first. Otherwise all
+/// orders of up to 4 vehicles. Of more a local search: the better of the order and its reverse;
+/// then the vehicle that pays most for planning late is moved to the front, or before the last one
+/// that it has to make way for, as long as that makes the plans cheaper all in all. Ends after
+/// kMostOrderExpansions.
 constinit const PriorityStrategy kBestOrder{
     .name = "best_order",
     .meaning = "the cheapest order of up to 4 coupled vehicles, of more the best of a local search",

@@ -16,14 +16,14 @@ std::vector<VehicleId> cheapest_rotation(const CouplingGraph& graph,
     num_levels = std::max<std::size_t>(num_levels, level_of.at(one) + 1);
   }
   std::vector<VehicleId> best = start;
-  OrderCost least = plan(start);
+  OrderCost least = plan(start, nullptr);
   std::size_t expanded = least.expanded;
   for (std::size_t turned = 1; turned < num_levels && expanded < kMostOrderExpansions; ++turned) {
     std::vector<VehicleId> order = start;
     std::ranges::stable_sort(order, {}, [&](VehicleId one) {
       return (level_of.at(one) + num_levels - turned) % num_levels;
     });
-    const OrderCost cost = plan(order);
+    const OrderCost cost = plan(order, &least);
     expanded += cost.expanded;
     if (is_better(cost, least)) {
       least = cost;
