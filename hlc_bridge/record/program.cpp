@@ -2,22 +2,12 @@
 
 #include <sys/utsname.h>
 
-#include <fstream>
 #include <thread>
+
+#include "planner/common/processor_model.hpp"
 
 namespace hlc::record {
 namespace {
-
-std::string cpu_model() {
-  std::ifstream info{"/proc/cpuinfo"};
-  for (std::string line; std::getline(info, line);) {
-    const std::size_t colon = line.find(": ");
-    if (line.rfind("model name", 0) == 0 && colon != std::string::npos) {
-      return line.substr(colon + 2);
-    }
-  }
-  return "unknown";
-}
 
 std::string kernel() {
   utsname name{};
@@ -30,6 +20,8 @@ std::string kernel() {
 
 }  // namespace
 
-result::Host this_host() { return {cpu_model(), std::thread::hardware_concurrency(), kernel()}; }
+result::Host this_host() {
+  return {processor_model(), std::thread::hardware_concurrency(), kernel()};
+}
 
 }  // namespace hlc::record

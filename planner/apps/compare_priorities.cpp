@@ -5,16 +5,18 @@
 
 #include <algorithm>
 #include <ctime>
+#include <filesystem>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "planner/apps/flags.hpp"
-#include "planner/apps/output_files.hpp"
+#include "planner/apps/priority_files.hpp"
 #include "planner/apps/progress_line.hpp"
-#include "planner/common/csv.hpp"
-#include "planner/common/text_file.hpp"
+#include "planner/apps/result_folder.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
 #include "planner/rollout/priority_trial.hpp"
 #include "planner/scenario/starts.hpp"
@@ -23,7 +25,7 @@ namespace {
 
 using hlc::rollout::PriorityTrial;
 
-constexpr int kExitFailed = 2;
+constexpr int kExitFailed = 3;
 constexpr double kMillisecondsPerSecond = 1e3;
 constexpr double kPercent = 100.0;
 
@@ -33,12 +35,13 @@ struct Flags {
   std::vector<std::string> strategies;  ///< empty: all that suit the coordination
   std::size_t draws{3};
   std::optional<std::size_t> max_levels;
-  hlc::apps::OutputFile rows{"--rows", {}};
+  std::filesystem::path out;  ///< empty: nothing is written
+  bool makes_report{};
 };
 
 /// One cell of the experiment.
 struct Cell {
-  std::size_t cars{};  ///< 0: the scenario's own
+  std::size_t cars{};
   std::string strategy;
   std::vector<PriorityTrial> trials;  ///< one for each draw
 };
@@ -63,8 +66,17 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--steps", flags.scenario.steps, "instead of the scenario's")
       ->check(hlc::apps::whole(1, 100'000));
   hlc::apps::declare_profile_flag(app, flags.scenario.profile);
-  hlc::apps::declare_output(app, flags.rows, "write a row per run (CSV)");
-  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
+  CLI::Option* const out = app.add_option(
+      "--out", flags.out,
+      "folder for the rows of all runs, steps and joint gaps (runs.csv, steps.csv, gaps.csv, "
+      "campaign.json); existing files of these names are replaced");
+  app.add_flag("--report", flags.makes_report,
+               "also makes the page OUT/report.md from the rows: tables and figures "
+               "(vehicle_sim/report; its Python packages are installed once)")
+      ->needs(out);
+  app.footer(
+      "Exit codes: 0 success, 2 invalid input, 3 the rows, the report or the printed output cannot "
+      "be written.");
 }
 
 /// Processor time: what else the machine does is not measured.
@@ -137,9 +149,12 @@ std::string row_of(const Cell& cell, double period_s) {
   const auto vehicle_steps = static_cast<double>(all.vehicle_steps);
   const auto gaps = hlc::coordination::joint_gap_figures(all.gaps);
   return fmt::format(
-      "| {} | {} | {:.2f} | {:.2f} | {:.1f} | {} | {:.1f} | {:.3f} | {} of {} | {} | {} | {} |\n",
-      cell.cars == 0 ? "-" : fmt::to_string(cell.cars), cell.strategy, quantile(all.step_ms, 0.5),
-      quantile(all.step_ms, 0.99), static_cast<double>(all.levels_sum) / steps, all.levels_max,
+      "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {} | {:.1f} | {:.3f} | {} of {} | {} | {} | "
+      "{} |\n",
+      cell.cars, cell.strategy,
+      std::accumulate(all.step_ms.begin(), all.step_ms.end(), 0.0) / steps,
+      quantile(all.step_ms, 0.5), quantile(all.step_ms, 0.99),
+      static_cast<double>(all.levels_sum) / steps, all.levels_max,
       kPercent * static_cast<double>(all.planned) / vehicle_steps,
       all.driven_m / static_cast<double>(std::max<std::size_t>(all.driven_steps, 1)) / period_s,
       all.deadlocked, cell.trials.size(),
@@ -155,10 +170,11 @@ std::string row_of(const Cell& cell, double period_s) {
 }
 
 constexpr const char* kHeading =
-    "| cars | strategy | step, all cars [ms]: median | p99 | levels: mean | max | new plans [%] | "
+    "| cars | strategy | step, all cars [ms]: mean | median | p99 | levels: mean | max | new plans "
+    "[%] | "
     "speed [m/s] | deadlocked runs | cost / optimal order (steps) | steps with fewer plans | above "
     "the joint optimum, at most: in all / in 99 % / proven to be it |\n"
-    "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 constexpr const char* kLegend =
     "\nstep: processor time of planning and coordination of all cars, one after the other in one "
@@ -176,17 +192,6 @@ std::vector<std::size_t> draws_of(const Flags& flags, const hlc::scenario::Scena
   std::vector<std::size_t> draws;
   for (std::size_t draw = 1; draw <= flags.draws; ++draw) draws.push_back(draw);
   return draws;
-}
-
-std::string csv_row(const Cell& cell, std::size_t draw, const PriorityTrial& trial) {
-  const Figures one = figures_of({trial});
-  const auto gaps = hlc::coordination::joint_gap_figures(one.gaps);
-  return hlc::CsvLine(cell.cars, cell.strategy, draw, one.step_ms.size(),
-                      quantile(one.step_ms, 0.5), quantile(one.step_ms, 0.99), one.levels_sum,
-                      one.levels_max, one.planned, one.vehicle_steps, one.driven_m,
-                      trial.deadlock_step, one.compared, one.cost_m2, one.optimal_order_m2,
-                      one.worse, gaps ? std::optional(gaps->total) : std::nullopt)
-      .text();
 }
 
 /// Refuses what the scenario's coordination does not allow; chooses what it does.
@@ -210,47 +215,70 @@ void choose_strategies(Flags& flags, const hlc::scenario::Scenario& scenario) {
   }
 }
 
-int run(Flags flags) {
-  hlc::apps::check_output_files({flags.rows}, {flags.scenario.file});
+/// All draws of all strategies with so many cars.
+std::vector<Cell> drive(const hlc::scenario::Scenario& scenario,
+                        const std::vector<std::string>& strategies,
+                        const std::vector<std::size_t>& draws,
+                        const hlc::apps::ProgressLine& progress, std::size_t& done) {
+  std::vector<Cell> cells;
+  for (const std::string& strategy : strategies) {
+    cells.push_back({.cars = scenario.vehicles.size(), .strategy = strategy, .trials = {}});
+  }
+  for (const std::size_t draw : draws) {
+    hlc::scenario::Scenario one = drawn(scenario, draw);
+    for (Cell& cell : cells) {
+      one.profile.strategies.priorities.strategy =
+          hlc::coordination::priority_strategy(cell.strategy);
+      cell.trials.push_back(hlc::rollout::try_priorities(one, true, now_s));
+      progress.show(++done);
+    }
+  }
+  return cells;
+}
+
+void write(const Flags& flags, const std::string& command, const hlc::scenario::Scenario& scenario,
+           const std::vector<std::size_t>& draws, std::vector<Cell> cells) {
+  hlc::apps::PriorityPlan plan{.strategies = flags.strategies, .cars = {}, .draws = draws};
+  std::vector<hlc::apps::PriorityRun> runs;
+  for (Cell& cell : cells) {
+    if (plan.cars.empty() || plan.cars.back() != cell.cars) plan.cars.push_back(cell.cars);
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+      runs.push_back({.cars = cell.cars,
+                      .strategy = cell.strategy,
+                      .draw = draws[i],
+                      .trial = std::move(cell.trials[i])});
+    }
+  }
+  hlc::apps::write_priority_files(flags.out, hlc::apps::origin_of(command), scenario, plan, runs);
+  if (flags.makes_report) hlc::apps::make_report(flags.out);
+}
+
+int run(Flags flags, const std::string& command) {
   hlc::apps::check_each_once("--cars", flags.cars);
   hlc::apps::check_each_once("--strategies", flags.strategies);
   if (flags.cars.empty()) flags.cars = {0};
-  std::string rows =
-      "cars,strategy,draw,steps,step_median_ms,step_p99_ms,levels_sum,levels_max,planned,"
-      "vehicle_steps,driven_m,deadlock_step,compared_steps,cost_m2,optimal_order_m2,worse_steps,"
-      "joint_excess\n";
   std::vector<hlc::scenario::Scenario> scenarios;  // all, before anything is driven
   for (const std::size_t cars : flags.cars) scenarios.push_back(read(flags, cars));
   const hlc::scenario::Scenario& any = scenarios.front();
   choose_strategies(flags, any);
+  if (!flags.out.empty()) hlc::apps::prepare_priority_folder(flags.out);
   const std::vector<std::size_t> draws = draws_of(flags, any);
   const hlc::apps::ProgressLine progress(
       "run", flags.cars.size() * flags.strategies.size() * draws.size());
-  std::string table = kHeading;
+  std::vector<Cell> cells;
   std::size_t done = 0;
-  for (std::size_t i = 0; i < scenarios.size(); ++i) {
-    std::vector<Cell> cells;
-    for (const std::string& strategy : flags.strategies) {
-      cells.push_back({.cars = flags.cars[i], .strategy = strategy, .trials = {}});
-    }
-    for (const std::size_t draw : draws) {
-      hlc::scenario::Scenario scenario = drawn(scenarios[i], draw);
-      for (Cell& cell : cells) {
-        scenario.profile.strategies.priorities.strategy =
-            hlc::coordination::priority_strategy(cell.strategy);
-        cell.trials.push_back(hlc::rollout::try_priorities(scenario, true, now_s));
-        rows += csv_row(cell, draw, cell.trials.back());
-        progress.show(++done);
-      }
-    }
-    for (const Cell& cell : cells) table += row_of(cell, any.subgraph->automaton().step_s);
+  for (const hlc::scenario::Scenario& scenario : scenarios) {
+    std::ranges::move(drive(scenario, flags.strategies, draws, progress, done),
+                      std::back_inserter(cells));
   }
+  std::string table = kHeading;
+  for (const Cell& cell : cells) table += row_of(cell, any.subgraph->automaton().step_s);
   fmt::print("{}: {} steps of {:g} s, horizon {}, subgraph {} of {} trims, {} draws{}\n\n{}{}",
              any.name, any.steps, any.subgraph->automaton().step_s, any.horizon_steps,
              any.subgraph->spec().name, any.subgraph->spec().trims.size(), draws.size(),
              flags.max_levels ? fmt::format(", at most {} levels", *flags.max_levels) : "", table,
              kLegend);
-  if (flags.rows.file) hlc::write_file(*flags.rows.file, rows);
+  if (!flags.out.empty()) write(flags, command, any, draws, std::move(cells));
   return 0;
 }
 
@@ -265,5 +293,6 @@ int main(int argc, char** argv) {
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
   return hlc::apps::exit_code_of(
-      "compare_priorities", [&flags] { return run(flags); }, kExitFailed);
+      "compare_priorities", [&] { return run(flags, hlc::apps::command_line(argc, argv)); },
+      kExitFailed);
 }

@@ -1,12 +1,8 @@
 #include "planner/plot/drawing.hpp"
 
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
 #include <cstdio>
 
+#include "planner/common/run_program.hpp"
 #include "planner/common/temporary_folder.hpp"
 #include "planner/common/text_file.hpp"
 
@@ -23,20 +19,6 @@ fs::path script() {
   return fs::exists(beside) || !fs::exists(of_sources) ? beside : of_sources.lexically_normal();
 }
 
-/// 0 if the program ends well.
-int run(std::array<std::string, 4> command) {
-  std::array<char*, 5> arguments{command[0].data(), command[1].data(), command[2].data(),
-                                 command[3].data(), nullptr};
-  pid_t child = 0;
-  int status = 0;
-  if (posix_spawn(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0 ||
-      waitpid(child, &status, 0) != child) {
-    std::fprintf(stderr, "%s: cannot be started, must be a program\n", arguments[0]);
-    return kExitNotDrawn;
-  }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 0 : kExitNotDrawn;
-}
-
 }  // namespace
 
 int draw(const std::string& kind, const nlohmann::ordered_json& data, const fs::path& out) {
@@ -49,7 +31,7 @@ int draw(const std::string& kind, const nlohmann::ordered_json& data, const fs::
   const TemporaryFolder folder;
   const fs::path file = folder / "drawing.json";
   write_file(file, data.dump());
-  return run({program.string(), kind, file.string(), out.string()});
+  return run_program({program.string(), kind, file.string(), out.string()}) ? 0 : kExitNotDrawn;
 }
 
 }  // namespace hlc::plot

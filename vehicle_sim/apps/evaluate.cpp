@@ -17,7 +17,6 @@
 #include "vehicle_sim/apps/evaluation_series.hpp"
 #include "vehicle_sim/apps/merged_rows.hpp"
 #include "vehicle_sim/apps/missing_runs.hpp"
-#include "vehicle_sim/apps/report.hpp"
 #include "vehicle_sim/campaign/campaign.hpp"
 
 namespace {
@@ -51,12 +50,6 @@ std::filesystem::path scenario_file(const Choices& choices, const std::string& n
                               choices.scenario_folder.string());
 }
 
-std::string command_line(int argc, char** argv) {
-  std::string line = std::filesystem::path(argv[0]).filename().string();
-  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
-  return line;
-}
-
 std::filesystem::path series_folder(const Choices& choices) { return choices.out / "series"; }
 
 /// All input of the campaign. A file that cannot be read is invalid input.
@@ -87,13 +80,6 @@ hlc::campaign::Campaign read(Choices& choices) {
   }
 }
 
-hlc::apps::EvaluationOrigin origin_of(const std::string& command) {
-  return {.command = command,
-          .revision = hlc::program_revision(),
-          .compiler = "GCC " __VERSION__,
-          .processor = hlc::record::this_host().cpu};
-}
-
 hlc::campaign::Sweep read_sweep(const Choices& choices) {
   try {
     return hlc::campaign::Sweep(hlc::campaign::read_sweep(choices.sweep));
@@ -108,7 +94,7 @@ int run_sweep(const Choices& choices, const std::string& command) {
   const Clock::time_point begin = Clock::now();
   const std::size_t failed = hlc::apps::drive_sweep(sweep, choices.drive.jobs, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  files.finish(origin_of(command));
+  files.finish(hlc::apps::origin_of(command));
   std::printf("%zu runs, %zu do not count, %.1f s; %s\n", sweep.runs().size(), failed, wall_s,
               (choices.out / "runs.csv").c_str());
   if (choices.makes_report) hlc::apps::make_report(choices.out);
@@ -135,7 +121,7 @@ int merge(const Choices& choices, const std::string& command) {
                                 ": has rows already, must be a new folder");
   }
   for (const auto& [run, row] : merged.rows) rows.append(run, row);
-  hlc::apps::write_results(rows, origin_of(command));
+  hlc::apps::write_results(rows, hlc::apps::origin_of(command));
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   const int code = conclude(rows, wall_s, "runs.csv");
   if (choices.makes_report) hlc::apps::make_report(choices.out);
@@ -151,7 +137,7 @@ int run(Choices choices, const std::string& command) {
   hlc::apps::drive_campaign(campaign, choices.drive, files);
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   if (!choices.shard.empty()) return conclude(files.rows(), wall_s, "runs.jsonl");
-  hlc::apps::write_results(files.rows(), origin_of(command));
+  hlc::apps::write_results(files.rows(), hlc::apps::origin_of(command));
   const int code = conclude(files.rows(), wall_s, "runs.csv");
   if (choices.writes_series) {
     hlc::apps::write_series(campaign, choices.drive.jobs, series_folder(choices));
@@ -280,5 +266,6 @@ int main(int argc, char** argv) {
   choices.drive.shard = shard_of(choices.shard).value_or(hlc::apps::Shard{});
   // A failed run is recorded; any other error concerns an output.
   return hlc::apps::exit_code_of(
-      "evaluate", [&] { return run(choices, command_line(argc, argv)); }, kExitNotWritten);
+      "evaluate", [&] { return run(choices, hlc::apps::command_line(argc, argv)); },
+      kExitNotWritten);
 }

@@ -10,18 +10,6 @@ namespace hlc::apps {
 
 using Json = nlohmann::ordered_json;
 
-std::string campaign_json(const std::string& kind, const EvaluationOrigin& origin,
-                          const Json& content) {
-  Json json;
-  json["kind"] = kind;
-  json["origin"] = Json{{"command", origin.command},
-                        {"revision", origin.revision},
-                        {"compiler", origin.compiler},
-                        {"processor", origin.processor}};
-  json[kind] = content;
-  return json.dump(1) + "\n";
-}
-
 const std::vector<std::string>& result_files() {
   static const std::vector<std::string> kNames{"campaign.json", "runs.csv", "cars.csv"};
   return kNames;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/apps/result_folder.hpp"
 #include "vehicle_sim/apps/run_log.hpp"
 #include "vehicle_sim/campaign/run_figures.hpp"
 
@@ -13,18 +14,6 @@ namespace hlc::apps {
 /// Of the rows of a campaign (EvaluationFiles): a change of their meaning counts it up. The heading
 /// of the rows has it as "format", and the number of the campaign's runs as "runs".
 inline constexpr std::size_t kRowFormat = 1;
-
-/// Where rows come from.
-struct EvaluationOrigin {
-  std::string command;
-  std::string revision;
-  std::string compiler;
-  std::string processor;
-};
-
-/// campaign.json: {"kind": ..., "origin": {...}, KIND: content}.
-[[nodiscard]] std::string campaign_json(const std::string& kind, const EvaluationOrigin& origin,
-                                        const nlohmann::ordered_json& content);
 
 /// The names of the files that write_results writes.
 [[nodiscard]] const std::vector<std::string>& result_files();

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from report.errors import InputError
 from report.files import replace
+from report.priorities import Priorities
 from report.results import read_folder
 from report.tables import Page, page_of
 
@@ -24,8 +25,9 @@ class _Parser(argparse.ArgumentParser):
 def _parse() -> argparse.Namespace:
     parser = _Parser(
         prog="report", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
-        description="Tables, statistics and figures of a folder that evaluate wrote: OUT/report.md is the page, "
-                    "OUT/report/ has\nthe data of every table and the figures (if evaluate wrote OUT/series).",
+        description="Tables, statistics and figures of a folder that evaluate or compare_priorities wrote: OUT/report.md is\n"
+                    "the page, OUT/report/ has the data of every table and the figures (of evaluate only if it wrote "
+                    "OUT/series).",
         epilog="Exit codes: 0 done, 2 invalid input, 3 not writable.")
     parser.add_argument("folder", metavar="OUT", type=Path, help="with campaign.json, runs.csv and, of a campaign, "
                                                                  "cars.csv")
@@ -48,8 +50,15 @@ def main() -> int:
     """@return the exit code"""
     folder = _parse().folder
     try:
-        page = page_of(read_folder(folder))
-        if not (folder / "series").exists():
+        results = read_folder(folder)
+        page = page_of(results)
+        if isinstance(results, Priorities):
+            from report import figure_priorities, figures
+
+            write(page, [NOT_DRAWN], folder)
+            drawings = figure_priorities.drawings_of(results, page.data["priorities"])
+            write(page, figures.save_all(drawings, folder / "report"), folder)
+        elif not (folder / "series").exists():
             write(page, [NO_SERIES], folder)
         else:
             write(page, [NOT_DRAWN], folder)  # a figure that fails must not take the tables with it

@@ -1,6 +1,6 @@
-"""All figures of a campaign, from OUT/series into OUT/report."""
+"""All figures of a campaign, from OUT/series into OUT/report; files and links of any figures."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from . import (
@@ -67,7 +67,17 @@ def draw_all(folder: Path) -> list[str]:
                 lines += [f"## {heading_of(group)}", ""]
                 lines += [*notes_of(group), ""] if notes_of(group) else []
                 last = group
-            files = style.save(drawing, target)
-            links = ", ".join(f"[{file.suffix[1:].upper()}](report/{file.name})" for file in files[1:])
-            lines += [f"![{drawing.caption}](report/{files[0].name})", "", f"{drawing.caption} {links}", ""]
+            lines += _saved(drawing, target)
     return lines
+
+
+def save_all(drawings: Iterable[style.Drawing], target: Path) -> list[str]:
+    """Draws and saves figures. Returns the page's lines, links relative to the folder that `target` lies in."""
+    with style.journal():
+        return [line for drawing in drawings for line in _saved(drawing, target)]
+
+
+def _saved(drawing: style.Drawing, target: Path) -> list[str]:
+    files = style.save(drawing, target)
+    links = ", ".join(f"[{file.suffix[1:].upper()}](report/{file.name})" for file in files[1:])
+    return [f"![{drawing.caption}](report/{files[0].name})", "", f"{drawing.caption} {links}", ""]

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Tables, statistics and figures of a folder that evaluate wrote.
+# Tables, statistics and figures of a folder that evaluate or compare_priorities wrote.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 
 usage() {
   cat <<'TEXT'
 usage: report.sh OUT
-  OUT  a folder of evaluate, with campaign.json, runs.csv and, of a campaign, cars.csv
+  OUT  a folder of evaluate or compare_priorities, with campaign.json, runs.csv and what belongs to them
 Writes OUT/report.md, the page, and OUT/report/ with the data of every table and the figures.
 Python's packages are installed once, into build/report_environment.
 Exit codes: 0 done, 2 invalid input, 3 not writable, or Python's packages cannot be installed

@@ -1,4 +1,4 @@
-"""What evaluate writes into a folder: campaign.json, runs.csv and, of a campaign, cars.csv."""
+"""What evaluate and compare_priorities write into a folder: campaign.json, runs.csv and more."""
 
 import json
 from dataclasses import dataclass
@@ -10,6 +10,7 @@ import pandas as pd
 
 from report import columns
 from report.errors import InputError
+from report.priorities import Priorities, read_priorities
 from report.rows import Rows
 
 NO_POLICY = "none"
@@ -59,8 +60,8 @@ def with_lap(runs: pd.DataFrame) -> pd.DataFrame:
     return runs[runs.outcome == LAP]
 
 
-def read_folder(folder: Path) -> Campaign | Sweep:
-    """@raises InputError for a folder that evaluate did not write, and for rows of another format."""
+def read_folder(folder: Path) -> Campaign | Sweep | Priorities:
+    """@raises InputError for a folder that neither program wrote, and for rows of another format."""
     path = folder / "campaign.json"
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
@@ -78,11 +79,22 @@ def read_folder(folder: Path) -> Campaign | Sweep:
         return _read_campaign(folder, origin, _field(record, "campaign", dict, path))
     if kind == "sweep":
         return _read_sweep(folder, origin, _field(record, "sweep", dict, path))
-    raise InputError(f'{path}: kind = "{kind}", must be campaign or sweep')
+    if kind == "priorities":
+        return read_priorities(folder, origin, _priorities_plan(_field(record, "priorities", dict, path), path))
+    raise InputError(f'{path}: kind = "{kind}", must be campaign, sweep or priorities')
+
+
+def _priorities_plan(plan: dict[str, Any], path: Path) -> dict[str, Any]:
+    place = f"{path}: priorities"
+    kinds = {"scenario": str, "profile": str, "subgraph": str, "steps": int, "step_s": float, "horizon_steps": int,
+             "max_levels": int, "runs": int}
+    lists = {"strategies": str, "cars": int, "draws": int}
+    return {name: _field(plan, name, kind, place) for name, kind in kinds.items()} \
+        | {name: _list(plan, name, kind, place) for name, kind in lists.items()}
 
 
 def _field(record: Any, key: str, kind: type, place: Path | str) -> Any:
-    names = {str: "a text", dict: "an object", list: "a list", int: "an integer"}
+    names = {str: "a text", dict: "an object", list: "a list", int: "an integer", float: "a number with a point"}
     value = record.get(key) if isinstance(record, dict) else None
     if not isinstance(value, kind) or isinstance(value, bool):
         raise InputError(f"{place}: {key} = {json.dumps(value)}, must be {names[kind]}")

@@ -1,4 +1,4 @@
-"""The page of a campaign or of a sweep, and the data of its tables."""
+"""The page of a campaign, a sweep or a comparison of priorities, and the data of its tables."""
 
 from dataclasses import dataclass, field
 
@@ -10,6 +10,7 @@ from report.failure_list import failure_markdown
 from report.paired_comparison import paired_data, paired_markdown
 from report.paper_comparison import comparison_markdown, judged_combinations
 from report.paper_distance import factor
+from report.priorities import Priorities, priorities_data, priorities_markdown
 from report.results import NO_POLICY, Campaign, Sweep
 from report.setting_tables import setting_data, setting_markdown
 from report.tradeoff import tradeoff_data, tradeoff_markdown
@@ -25,11 +26,14 @@ class Page:
     data: dict[str, pd.DataFrame] = field(default_factory=dict)
 
 
-def page_of(results: Campaign | Sweep) -> Page:
+def page_of(results: Campaign | Sweep | Priorities) -> Page:
     """All tables."""
     origin = results.origin
     text = (f"Command: `{origin['command']}`\n\nProgram {origin['revision']}, compiled by {origin['compiler']}; "
             f"{origin['processor']}.\n")
+    if isinstance(results, Priorities):
+        data = priorities_data(results)
+        return Page(priorities_markdown(results, data), text, {"priorities": data})
     return _campaign_page(results, text) if isinstance(results, Campaign) else _sweep_page(results, text)
 
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace hlc::apps {
+
+/// Where rows come from.
+struct EvaluationOrigin {
+  std::string command;
+  std::string revision;
+  std::string compiler;
+  std::string processor;
+};
+
+/// Name of the program and its arguments, separated by blanks.
+[[nodiscard]] std::string command_line(int argc, const char* const* argv);
+
+/// Of this program on this machine.
+[[nodiscard]] EvaluationOrigin origin_of(const std::string& command);
+
+/// campaign.json: {"kind": ..., "origin": {...}, KIND: content}.
+[[nodiscard]] std::string campaign_json(const std::string& kind, const EvaluationOrigin& origin,
+                                        const nlohmann::ordered_json& content);
+
+/// Makes the page report.md of the folder, by vehicle_sim/report/report.sh. Its messages go to this
+/// program's output and errors.
+/// @param folder  with campaign.json and its rows
+/// @pre this program is build/PRESET/bin/NAME
+/// @throws std::runtime_error with one line if the script is not found or fails
+void make_report(const std::filesystem::path& folder);
+
+}  // namespace hlc::apps
