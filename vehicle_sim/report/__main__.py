@@ -25,12 +25,12 @@ class _Parser(argparse.ArgumentParser):
 def _parse() -> argparse.Namespace:
     parser = _Parser(
         prog="report", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
-        description="Tables, statistics and figures of a folder that evaluate or compare_priorities wrote: OUT/report.md is\n"
-                    "the page, OUT/report/ has the data of every table and the figures (of evaluate only if it wrote "
-                    "OUT/series).",
+        description="Tables, statistics and figures of a folder that evaluate or compare_priorities wrote: "
+                    "OUT/report.md is\nthe page, OUT/report/ has the data of every table and the figures (of evaluate "
+                    "only if it wrote OUT/series).",
         epilog="Exit codes: 0 done, 2 invalid input, 3 not writable.")
-    parser.add_argument("folder", metavar="OUT", type=Path, help="with campaign.json, runs.csv and, of a campaign, "
-                                                                 "cars.csv")
+    parser.add_argument("folder", metavar="OUT", type=Path, help="with campaign.json, runs.csv and what belongs to "
+                                                                 "them")
     return parser.parse_args()
 
 

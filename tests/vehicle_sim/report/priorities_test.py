@@ -74,7 +74,8 @@ class PrioritiesPage(unittest.TestCase):
             read_folder(self.folder)
 
     def test_missing_rows_are_refused(self) -> None:
-        for name, rows in {"runs.csv": "7 rows, 7 different ones, must be 8", "steps.csv": "79 rows, must be 80"}.items():
+        for name, rows in (("runs.csv", "7 rows, 7 different ones, must be 8"),
+                           ("steps.csv", "79 rows, must be 80")):
             write(self.folder)
             path = self.folder / name
             path.write_text("\n".join(path.read_text().splitlines()[:-1]) + "\n")
