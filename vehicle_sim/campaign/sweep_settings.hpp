@@ -39,8 +39,8 @@ struct SweepValue {
 /// | `trims`               | which trims are on in every subgraph of the sweep, standstill       |
 /// |                       | always: lists of numbers from 1, or the word `subsets`: every       |
 /// |                       | choice of at least one moving trim                                  |
-/// | `vehicle`             | `identified`: the lab's; `exact`: always where the plan is, as in   |
-/// |                       | the paper's simulation (exact_run.hpp)                              |
+/// | `vehicle`             | `identified`: the lab's; `exact`: always where the plan is          |
+/// |                       | (exact_run.hpp)                                                     |
 /// | `lap`                 | `standing`: a run is judged from its first step on; `flying`: from  |
 /// |                       | step 10 on (lap, errors and vertices)                               |
 struct SweepSetting {

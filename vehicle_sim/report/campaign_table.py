@@ -78,6 +78,12 @@ def _papers(quantity: paper.Quantity, scenario: str, column: Column) -> float:
     return quantity.paper(scenario, column.subgraph) if column.policy == NO_POLICY else np.nan
 
 
+def _difference(quantity: paper.Quantity, ours: float, theirs: float) -> str:
+    """None of what was measured on another machine."""
+    difference = np.nan if quantity.depends_on_machine else _percent(ours, theirs)
+    return "-" if np.isnan(difference) else f"{difference:+.1f} %"
+
+
 def _percent(ours: float, theirs: float) -> float:
     return 100.0 * (ours - theirs) / theirs
 
@@ -96,13 +102,11 @@ def _beside_paper(scenario: str, columns: list[Column]) -> str:
         titles += [PAPER_NAMES[name], f"ours - {PAPER_NAMES[name]}"]
     rows = []
     for one in paper.QUANTITIES:
-        for column in columns if one.simulation or one.lab else []:
+        for column in columns if one.is_compared_in(scenario) else []:
             ours = one.values(with_lap(column.runs))
             row = [one.name, column.name, _spread(ours, one.decimals)]
             for theirs in (_papers(one, name, column) for name in own_first):
-                difference = _percent(ours.mean(), theirs)
-                row += [markdown.number(theirs, min(one.decimals, 1)),
-                        "-" if np.isnan(difference) else f"{difference:+.1f} %"]
+                row += [markdown.number(theirs, min(one.decimals, 1)), _difference(one, ours.mean(), theirs)]
             rows.append(row)
     return markdown.table(titles, rows)
 

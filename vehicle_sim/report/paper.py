@@ -28,7 +28,14 @@ class Quantity:
 
     def paper(self, scenario: str, subgraph: str) -> float:
         """NaN where the paper has none. @param scenario: SIMULATION or LAB"""
-        return {SIMULATION: self.simulation, LAB: self.lab}[scenario].get(subgraph, np.nan)
+        return self._values(scenario).get(subgraph, np.nan)
+
+    def is_compared_in(self, scenario: str) -> bool:
+        """Whether the paper has it for as many cars: its vertices are one car's in the lab, three cars' in simulation."""
+        return bool(self._values(scenario))
+
+    def _values(self, scenario: str) -> dict[str, float]:
+        return {SIMULATION: self.simulation, LAB: self.lab}[scenario]
 
 
 def _by_subgraph(*values: float) -> dict[str, float]:
