@@ -3,6 +3,10 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <ostream>
+#include <string>
+
 #include <fastdds/rtps/builtin/data/ParticipantProxyData.h>
 
 namespace hlc::dds {
@@ -23,12 +27,36 @@ TEST(ParticipantThatHasLeft, IsNotLookedAtForItsLease) {
   proxy.clear();
   EXPECT_EQ(proxy.m_guid, frtps::GUID_t::unknown());
   EXPECT_FALSE(proxy.should_check_lease_duration);
-
-  const void* called_by_library =
-      dlsym(RTLD_DEFAULT, "_ZN8eprosima8fastrtps4rtps20ParticipantProxyData5clearEv");
-  static const int here = 0;
-  EXPECT_EQ(file_of(called_by_library), file_of(&here));
 }
+
+struct Replaced {
+  const char* name;
+  const char* symbol;
+};
+void PrintTo(const Replaced& one, std::ostream* out) { *out << one.name; }
+
+class ReplacedFunctions : public testing::TestWithParam<Replaced> {};
+
+TEST_P(ReplacedFunctions, AreCalledByTheLibrary) {
+  static const int here = 0;
+  EXPECT_EQ(file_of(dlsym(RTLD_DEFAULT, GetParam().symbol)), file_of(&here));
+  EXPECT_NE(dlsym(RTLD_NEXT, GetParam().symbol), nullptr) << "the library no longer has it";
+}
+
+constexpr std::array kReplaced{
+    Replaced{"Clear", "_ZN8eprosima8fastrtps4rtps20ParticipantProxyData5clearEv"},
+    Replaced{"Statistics",
+             "_ZNK8eprosima8fastrtps4rtps15MessageReceiver25notify_network_statisticsERKNS1_9"
+             "Locator_tES5_PNS1_12CDRMessage_tE"},
+    Replaced{"Heartbeat",
+             "_ZN8eprosima8fastrtps4rtps14StatefulReader19processHeartbeatMsgERKNS1_6GUID_tEjRKNS1"
+             "_16SequenceNumber_tES8_bb"},
+    Replaced{"Gap",
+             "_ZN8eprosima8fastrtps4rtps14StatefulReader13processGapMsgERKNS1_6GUID_tERKNS1_16"
+             "SequenceNumber_tERKNS0_11BitmapRangeIS6_NS1_18SequenceNumberDiffELj256EEE"}};
+
+INSTANTIATE_TEST_SUITE_P(FastDds, ReplacedFunctions, testing::ValuesIn(kReplaced),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
 }  // namespace hlc::dds

@@ -1,8 +1,12 @@
-// A process that is there: peer <name> <domain>. Ends cleanly on SIGTERM.
+// A process that is there: peer <name> <domain>. Returns every outcome that it receives. Ends
+// cleanly on SIGTERM.
 
 #include <cstdlib>
+#include <utility>
+#include <vector>
 
 #include "hlc_bridge/dds/participant.hpp"
+#include "hlc_bridge/dds/reader.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/time/signal.hpp"
 #include "hlc_bridge/time/stop_signals.hpp"
@@ -21,7 +25,19 @@ int main(int argc, char** argv) {
 
   hlc::time::Signal signal;
   bool stopped = false;
+  std::vector<hlc::coordination::Outcome> received;
+  const hlc::dds::Reader<hlc::coordination::Outcome> reader{
+      participant, hlc::dds::topics::outcome(),
+      [&](const auto& outcome) { signal.post([&] { received.push_back(outcome); }); }};
+  const hlc::dds::Reader<hlc::coordination::Traffic> traffic{
+      participant, hlc::dds::topics::traffic(), [](const auto& /*message*/) {}};
   stop_signals.on_stop([&](int) { signal.post([&] { stopped = true; }); });
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{5};
-  return signal.wait_until(deadline, [&] { return stopped; }) ? 0 : 1;
+  while (signal.wait_until(deadline, [&] { return stopped || !received.empty(); })) {
+    if (signal.locked([&] { return stopped; })) return 0;
+    for (const auto& outcome : signal.locked([&] { return std::exchange(received, {}); })) {
+      writer.write(outcome);
+    }
+  }
+  return 1;
 }
