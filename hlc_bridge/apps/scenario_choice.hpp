@@ -1,11 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc::apps {
@@ -22,7 +23,7 @@ inline constexpr const char* kDefaultScenarioFile = "default_scenario";
 inline std::optional<std::string> default_scenario_line(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kDefaultScenarioFile;
   if (!std::filesystem::exists(file)) return std::nullopt;
-  std::ifstream stream(file);
+  std::istringstream stream(read_regular_file(file, "one line with a scenario's name or file"));
   std::string line;
   std::string rest;
   if (!(stream >> line) || stream >> rest) {

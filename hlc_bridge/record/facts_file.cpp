@@ -26,7 +26,7 @@ std::string facts_json(const result::RunFacts& facts) {
 }
 
 result::RunFacts read_facts(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
+  const std::string text = read_file(file, kMostInputBytes);
   try {
     const auto json = nlohmann::json::parse(text);
     result::RunFacts facts;

@@ -249,10 +249,12 @@ void write_automaton_file(const AutomatonFile& file, const std::filesystem::path
 bool is_automaton_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
-  // The first line is sufficient: large files are read once.
-  std::ifstream stream(path, std::ios::binary);
-  std::string line;
-  return std::getline(stream, line) && line.starts_with("automaton_schema:");
+  // The first bytes are sufficient: large files are read once.
+  constexpr std::string_view kBegin = "automaton_schema:";
+  std::string begin(kBegin.size(), '\0');
+  std::ifstream(path, std::ios::binary)
+      .read(begin.data(), static_cast<std::streamsize>(kBegin.size()));
+  return begin == kBegin;
 }
 
 AutomatonFile read_automaton_file(const std::filesystem::path& path) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <type_traits>
 
@@ -151,10 +151,7 @@ Node Node::parse_yaml(const std::string& text, const std::string& name) {
 }
 
 Node Node::read_json(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path)) {
-    throw std::invalid_argument(path.string() + ": cannot be read, must be a JSON file");
-  }
+  std::istringstream stream(read_regular_file(path, "a JSON file"));
   return root_of(parse_json(stream, path.string()), path.string(), FileFormat::kJson);
 }
 

@@ -1,12 +1,13 @@
 #include "planner/common/text_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -31,6 +32,48 @@ bool is_written(std::FILE* file, std::string_view text) {
   return std::fclose(file) == 0 && is_complete;
 }
 
+struct Descriptor {
+  explicit Descriptor(const fs::path& path)
+      : value(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
+  ~Descriptor() {
+    if (value >= 0) ::close(value);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int value;
+};
+
+std::string read_bounded(const fs::path& path, std::string_view allowed, std::size_t most_bytes) {
+  const auto fail = [&](const std::string& reason) {
+    throw std::runtime_error(path.string() + ": " + reason);
+  };
+  const auto check_size = [&](std::size_t bytes) {
+    if (bytes > most_bytes) fail(fmt::format("{} bytes, must be <= {}", bytes, most_bytes));
+  };
+  const std::string unreadable = fmt::format("cannot be read, must be {}", allowed);
+  const Descriptor file(path);
+  struct stat status {};
+  if (file.value < 0 || ::fstat(file.value, &status) != 0 || !S_ISREG(status.st_mode)) {
+    fail(unreadable);
+  }
+  const auto size = static_cast<std::size_t>(status.st_size);
+  check_size(size);
+  // Files of /proc have no size, and others may grow.
+  constexpr std::size_t kPiece = std::size_t{1} << 16U;
+  std::string text;
+  text.reserve(size + 1);
+  while (true) {
+    const std::size_t begin = text.size();
+    text.resize(std::max(text.capacity(), begin + kPiece));
+    const ssize_t count = ::read(file.value, text.data() + begin, text.size() - begin);
+    if (count < 0) fail(unreadable);
+    text.resize(begin + static_cast<std::size_t>(count));
+    if (count == 0) return text;
+    check_size(text.size());
+  }
+}
+
 }  // namespace
 
 void write_file(const fs::path& path, std::string_view text) {
@@ -50,22 +93,16 @@ void write_file(const fs::path& path, std::string_view text) {
   throw std::runtime_error(path.string() + ": cannot be written");
 }
 
-std::string read_file(const fs::path& path) {
-  std::ifstream stream{path, std::ios::binary};
-  std::string text{std::istreambuf_iterator<char>{stream}, {}};
-  if (!stream || stream.bad()) throw std::runtime_error(path.string() + ": cannot be read");
-  return text;
+std::string read_file(const fs::path& path, std::size_t most_bytes) {
+  return read_bounded(path, "a regular file", most_bytes);
 }
 
 std::string read_regular_file(const fs::path& path, std::string_view allowed) {
-  std::error_code error;
   try {
-    if (fs::is_regular_file(path, error)) return read_file(path);
-  } catch (const std::runtime_error&) {
-    // The same message for every cause.
+    return read_bounded(path, allowed, kMostInputBytes);
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(error.what());
   }
-  throw std::invalid_argument(
-      fmt::format("{}: cannot be read, must be {}", path.string(), allowed));
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,12 +15,20 @@ namespace hlc {
 /// no regular file itself (a link, which the renaming would replace); no new file remains then
 void write_file(const std::filesystem::path& path, std::string_view text);
 
-/// The whole file. @throws std::runtime_error naming the file if it cannot be read
-[[nodiscard]] std::string read_file(const std::filesystem::path& path);
+/// Longest file that a user names (the largest shipped automaton has 23 MB when built), and longest
+/// record of a run.
+inline constexpr std::size_t kMostInputBytes = std::size_t{64} << 20U;
+inline constexpr std::size_t kMostRecordBytes = std::size_t{2} << 30U;
 
-/// The same for a file named by a user, which may be an endless device.
+/// The whole file. Opened without waiting, read only if it is a regular file, and no further than
+/// the limit: a pipe, a device or a file that grows ends in a message.
+/// @throws std::runtime_error naming the file if it cannot be read, is no regular file or is longer
+[[nodiscard]] std::string read_file(const std::filesystem::path& path,
+                                    std::size_t most_bytes = kMostRecordBytes);
+
+/// The same for a file named by a user, of at most kMostInputBytes.
 /// @param allowed  kind of file, for the message
-/// @throws std::invalid_argument naming the file if it is no regular file or cannot be read
+/// @throws std::invalid_argument naming the file
 [[nodiscard]] std::string read_regular_file(const std::filesystem::path& path,
                                             std::string_view allowed);
 

@@ -233,7 +233,7 @@ LaneletMap read_lanelet_map(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, ignored)) {
     throw std::runtime_error(file.string() + ": cannot be read, must be a CommonRoad 2020a file");
   }
-  return parse_lanelet_map(read_file(file), file.string());
+  return parse_lanelet_map(read_file(file, kMostInputBytes), file.string());
 }
 
 std::string to_commonroad_xml(const LaneletMap& map) {

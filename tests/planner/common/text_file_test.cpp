@@ -8,7 +8,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 
@@ -119,6 +121,56 @@ TEST(TextFile, FailureNamesTheFile) {
 TEST(Split, KeepsEmptyPieces) {
   EXPECT_THAT(split("a,,b,", ','), ElementsAre("a", "", "b", ""));
   EXPECT_THAT(split("", ','), ElementsAre(""));
+}
+
+struct Unreadable {
+  std::string name;
+  std::function<void(const fs::path&)> make;
+  std::string reason;
+};
+void PrintTo(const Unreadable& one, std::ostream* out) { *out << one.name; }
+
+class UnreadableFiles : public testing::TestWithParam<Unreadable> {};
+
+// A pipe without a writer was waited for, and a device read until the memory was full.
+TEST_P(UnreadableFiles, EndInOneLine) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder / "input";
+  GetParam().make(file);
+  EXPECT_THAT([&] { static_cast<void>(read_regular_file(file, "a YAML file")); },
+              ThrowsMessage<std::invalid_argument>(file.string() + GetParam().reason));
+  EXPECT_THROW(static_cast<void>(read_file(file, kMostInputBytes)), std::runtime_error);
+}
+
+constexpr const char* kNotRegular = ": cannot be read, must be a YAML file";
+
+INSTANTIATE_TEST_SUITE_P(
+    ReadFile, UnreadableFiles,
+    testing::Values(
+        Unreadable{"Absent", [](const fs::path&) {}, kNotRegular},
+        Unreadable{"Folder", [](const fs::path& file) { fs::create_directory(file); }, kNotRegular},
+        Unreadable{"Pipe", [](const fs::path& file) { EXPECT_EQ(mkfifo(file.c_str(), 0600), 0); },
+                   kNotRegular},
+        Unreadable{"Device", [](const fs::path& file) { fs::create_symlink("/dev/zero", file); },
+                   kNotRegular},
+        Unreadable{"TooLong",
+                   [](const fs::path& file) {
+                     test::put(file, "");
+                     fs::resize_file(file, 100'000'000);
+                   },
+                   ": 100000000 bytes, must be <= 67108864"}),
+    [](const auto& one) { return one.param.name; });
+
+TEST(ReadFile, ReadsWhatHasNoSize) {
+  EXPECT_THAT(read_file("/proc/self/status"), HasSubstr("Pid:"));
+}
+
+TEST(ReadFile, ReadsUpToTheLimit) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder / "input";
+  test::put(file, "1234");
+  EXPECT_EQ(read_file(file, 4), "1234");
+  EXPECT_THROW(static_cast<void>(read_file(file, 3)), std::runtime_error);
 }
 
 }  // namespace
