@@ -55,6 +55,8 @@ TEXT
 }
 
 fail() { echo "run_lab.sh: $1" >&2; exit 2; }
+# shellcheck source=SCRIPTDIR/domain_locks.sh
+source "$root/launch_scripts/domain_locks.sh"
 
 scenario=paper_three_cars profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
@@ -108,10 +110,13 @@ in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 [[ -z $stamps || $stamps == exact || $stamps == lab ]] || fail "--stamps = $stamps, must be one of exact, lab"
 [[ -z $gains_scale || $stamps != lab ]] || fail "--stamps = lab with --gains_scale, must be exact: the lab's follower has no gains"
 [[ -z $gains_scale ]] || stamps=exact
+# Files and folders of any name: none begins with a dash.
+for name in out dump_problems map bin; do [[ -z ${!name} || ${!name} == /* ]] || printf -v "$name" '%s' "$PWD/${!name}"; done
 case "$preset" in
   release | debug | asan | tsan) ;;
   *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
 esac
+[[ ! -e $scenario || $scenario == /* ]] || scenario=$PWD/$scenario
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/${scenario%.yaml}.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$root/launch_scripts/scenarios" && echo *.yaml)"
 
@@ -150,14 +155,13 @@ fi
 # the controllers'. This shell and its children hold the locks; a manual vehicle.sh shares them.
 largest_id=${ids[-1]}
 [[ $share == none ]] || largest_id=${ids[0]}
-block_is_free() { # first domain
-  local domain file fd fds=()
+block_is_free() { # first domain, whose participants make it taken: anybody's or others'
+  local domain fd fds=()
   for ((domain = $1; domain <= $1 + largest_id; domain++)); do
-    file=/tmp/hlc_dds_domain_$domain.lock
-    # Other users lock the same files: they are world-readable, and opened for reading only, since
-    # Linux refuses to open another user's file in /tmp with O_CREAT.
-    [[ -e $file ]] || { (umask 000 && : >>"$file"); } 2>/dev/null
-    { exec {fd}<"$file"; } 2>/dev/null && fds+=("$fd") && flock -n "$fd" && continue
+    if lock_domain "$domain" --exclusive; then
+      fds+=("$lock")
+      domain_has "$domain" "$2" || domain_has $((domain + 50)) "$2" || continue
+    fi
     for fd in "${fds[@]}"; do exec {fd}<&-; done
     return 1
   done
@@ -166,11 +170,13 @@ if [[ -n $dds_domain ]]; then
   dds_domain=$((10#$dds_domain))
   ((dds_domain + largest_id <= 50)) ||
     fail "--dds_domain = $dds_domain, must be in 0 ... $((50 - largest_id)) (the vehicles take the next ones)"
-  block_is_free "$dds_domain" ||
+  block_is_free "$dds_domain" others ||
     fail "--dds_domain = $dds_domain: another run uses one of $dds_domain ... $((dds_domain + largest_id))"
 else
-  for ((first = 1; first + largest_id <= 50; first++)); do
-    if block_is_free "$first"; then
+  blocks=$((50 - largest_id))
+  for ((i = 0; i < blocks; i++)); do
+    first=$((1 + (EUID + i) % blocks))
+    if block_is_free "$first" anybody; then
       dds_domain=$first
       break
     fi
@@ -201,7 +207,6 @@ make_folder() { # flag, folder
 [[ -z $out ]] || make_folder out "$out" # first: may contain the problems
 if [[ -n $dump_problems ]]; then
   make_folder dump-problems "$dump_problems"
-  dump_problems=$(cd -- "$dump_problems" && pwd)
 fi
 if [[ -z $out ]]; then
   out=$root/runs/$(date +%Y%m%d_%H%M%S)_$(basename "$scenario" .yaml)
@@ -212,11 +217,18 @@ if [[ -z $out ]]; then
     ((i < 1000)) || fail "cannot create a run folder in $root/runs"
   done
 fi
-out=$(cd "$out" && pwd)
 mkdir -p "$out/logs" "$out/configuration" 2>/dev/null || fail "--out = $out: not writable"
 
 # Flags of this run, in addition to the files that summarize writes.
-quoted() { if [[ -n $1 ]]; then printf "'%s'" "${1//\'/\'\'}"; else echo null; fi; } # for YAML
+quoted() { # for YAML
+  local text=${1//\\/\\\\}
+  text=${text//\"/\\\"}
+  case "$1" in
+    "") echo null ;;
+    *[$'\n\t\r']*) text=${text//$'\n'/\\n} text=${text//$'\t'/\\t} text=${text//$'\r'/\\r}; printf '"%s"' "$text" ;;
+    *) printf "'%s'" "${1//\'/\'\'}" ;;
+  esac
+}
 cat >"$out/configuration/flags.yaml" <<TEXT
 # Flags of run_lab.sh; null: not given. Car N measures with the noise of seed noise_seed + N.
 scenario: $(quoted "$(realpath "$scenario")")

@@ -40,7 +40,7 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --messages BOOL         true: every message of these processes is recorded in --out (default: false)
   --on_death WHAT         stop (default): a process that is killed fails the run; continue: it may be restarted
   --only NAME             restart one process: hlc, middleware or vehicle. Omitted flags are those with
-                          which the vehicle of the run in --out was started; a car keeps its last pose.
+                          which the vehicle of the run in --out was started, except --bin; a car keeps its last pose.
                           What several vehicles share is restarted with all of them as --id
   --out DIR               folder for logs and the vehicle's record (default: runs/vehicle_N)
   --bin DIR               folder of the programs (default: build/release/bin)
@@ -50,6 +50,8 @@ TEXT
 }
 
 fail() { echo "vehicle.sh: $1" >&2; exit 2; }
+# shellcheck source=SCRIPTDIR/domain_locks.sh
+source "$root/launch_scripts/domain_locks.sh"
 
 id="" scenario="" profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed="" routes=""
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
@@ -58,7 +60,8 @@ discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server
 noise_seed="" gains_scale="" stamps="" messages=false on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
 kept_flags=(id scenario profile engine priorities dump_problems subgraph policy map cars seed routes simulated_time transport
   discovery_mode discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
-  controller_domain pose noise_seed gains_scale stamps messages on_death bin startup_timeout_s shared_by)
+  controller_domain pose noise_seed gains_scale stamps messages on_death startup_timeout_s shared_by)
+# Whose programs run is never read from a run folder: --bin is not kept.
 take_flags() {
   local name value
   while (($#)); do
@@ -75,7 +78,7 @@ take_flags() {
     name=${name#--}
     [[ $name != dump-problems ]] || name=dump_problems
     [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a folder"
-    [[ $name == out || $name == only || " ${kept_flags[*]} " == *" $name "* ]] || fail "unknown flag --$name (see --help)"
+    [[ $name =~ ^(out|only|bin)$ || " ${kept_flags[*]} " == *" $name "* ]] || fail "unknown flag --$name (see --help)"
     printf -v "$name" '%s' "$value"
   done
 }
@@ -85,10 +88,15 @@ name_of() { # ids: 3, or 1-20 for several
 }
 flags_file=$out/logs/vehicle_$(name_of "$id").flags
 if [[ -n $only && -n $out && -e $flags_file ]]; then
-  mapfile -t former <"$flags_file"
+  [[ -O $out && -O $flags_file && -f $flags_file ]] || fail "--out = $out: of another user, must be a run of this one"
+  mapfile -d '' -t former <"$flags_file"
+  given_bin=$bin
   take_flags "${former[@]}"
+  bin=$given_bin
   take_flags "$@"
 fi
+# Files and folders of any name: none begins with a dash.
+for name in out dump_problems map bin; do [[ -z ${!name} || ${!name} == /* ]] || printf -v "$name" '%s' "$PWD/${!name}"; done
 case "$only" in
   "" | hlc | middleware | vehicle) ;;
   *) fail "--only = $only, must be one of hlc, middleware, vehicle" ;;
@@ -117,6 +125,7 @@ for one in ${noise_seed//,/ }; do whole_number noise_seed "$one"; done
 [[ -z $gains_scale || $stamps != lab ]] || fail "--stamps = lab with --gains_scale, must be exact: the lab's follower has no gains"
 [[ -z $gains_scale ]] || stamps=exact
 [[ -n $scenario ]] || fail "--scenario is missing"
+[[ ! -e $scenario || $scenario == /* ]] || scenario=$PWD/$scenario
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/${scenario%.yaml}.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
 [[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + ids[0]))
@@ -125,13 +134,9 @@ if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/r
   fail "--out = $out: a finished run, must be a new folder; --only requires a running one"
 fi
 
-# run_lab.sh reserves its domains and sets a variable. A manual start shares a domain with other vehicles.
+# run_lab.sh reserves its domains and sets a variable. A manual start shares a domain with other vehicles of the user.
 share_domain() { # flag, domain
-  local file=/tmp/hlc_dds_domain_$(($2)).lock fd
-  [[ -e $file ]] || { (umask 000 && : >>"$file"); } 2>/dev/null
-  if ! { exec {fd}<"$file"; } 2>/dev/null || ! flock --shared --nonblock "$fd"; then
-    fail "$1 = $2: a run on this machine uses it"
-  fi
+  { lock_domain "$2" --shared && ! domain_has "$2" others; } || fail "$1 = $2: a run on this machine uses it"
 }
 if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} && -z $only ]]; then
   share_domain --dds_domain "$((10#$dds_domain))"
@@ -140,10 +145,8 @@ fi
 if [[ -n $dump_problems ]]; then # other vehicles of the run may write there, too
   { mkdir -p -- "$dump_problems" && probe=$(mktemp -- "$dump_problems/XXXXXX") && rm -- "$probe"; } 2>/dev/null ||
     fail "--dump-problems = $dump_problems: not writable, must be a folder that can be created and written to"
-  dump_problems=$(cd -- "$dump_problems" && pwd)
 fi
 mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: not writable"
-out=$(cd "$out" && pwd)
 [[ -x $bin/vehicle_sim ]] || fail "--bin = $bin: no programs there, build first"
 
 choices=(--scenario "$scenario" --profile "$profile")
@@ -206,7 +209,7 @@ scenario=$(realpath "$scenario") bin=$(realpath "$bin")
 keep_flags() { # ids
   local id=$1 name
   for name in "${kept_flags[@]}"; do
-    [[ -z ${!name} ]] || echo "--$name=${!name}"
+    [[ -z ${!name} ]] || printf '%s\0' "--$name=${!name}"
   done >"$out/logs/vehicle_$(name_of "$id").flags"
 }
 if [[ -z $only ]]; then
@@ -271,7 +274,7 @@ while true; do
     if ((code > 128)) && [[ $on_death == continue ]]; then
       which=${names[$pid]%_*} of=$id
       [[ $which != high_level_controller ]] || of=${names[$pid]##*_}
-      echo "${names[$pid]} was killed; restart: $0 --id $of --only ${which/high_level_controller/hlc} --out $out" >&2
+      echo "${names[$pid]} was killed; restart: $0 --id $of --only ${which/high_level_controller/hlc} --out ${out@Q} --bin ${bin@Q}" >&2
     elif ((code != 0)); then
       echo "${names[$pid]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$pid]}.log")" >&2
       ((first != 0)) || first=$code

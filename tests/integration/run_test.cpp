@@ -168,7 +168,7 @@ TEST(Run, EveryDomainOfALabIsReserved) {
   const LabProcesses lab({.scenario = "lab_cars", .cars = 20});
   const int last = lab.lab_domain() + 20;
   for (int domain = lab.lab_domain(); domain <= last; ++domain) {
-    const std::string file = "/tmp/hlc_dds_domain_" + std::to_string(domain) + ".lock";
+    const std::string file = domain_lock_file(domain);
     const int lock = open(file.c_str(), O_RDONLY | O_CLOEXEC);
     EXPECT_GE(lock, 0) << file;
     EXPECT_NE(flock(lock, LOCK_EX | LOCK_NB), 0) << file << " is free";

@@ -362,7 +362,7 @@ TEST_P(KilledProcess, IsStartedAgainByOneCommandAndTheRunGoesOn) {
   ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 8000; }))
       << output();
   const std::vector<std::string> command{
-      kScripts + "vehicle.sh", "--id", "2", "--only", only, "--out", out.string()};
+      kScripts + "vehicle.sh", "--bin", kBin, "--id", "2", "--only", only, "--out", out.string()};
   const pid_t pid = pid_of(out, process);
   ASSERT_GT(pid, 0);
   ChildProcess second(command, folder_ / "second");

@@ -28,9 +28,9 @@ class SharedProcesses : public testing::Test {
     return ChildProcess(flags, folder_ / "output");
   }
   ChildProcess restart(const std::string& id, const std::string& only) {
-    return ChildProcess(
-        {kScripts + "vehicle.sh", "--id", id, "--only", only, "--out", out().string()},
-        folder_ / only);
+    return ChildProcess({kScripts + "vehicle.sh", "--bin", kBin, "--id", id, "--only", only,
+                         "--out", out().string()},
+                        folder_ / only);
   }
   [[nodiscard]] std::string output() const { return read_text(folder_ / "output"); }
   [[nodiscard]] std::filesystem::path out() const { return folder_ / "run"; }

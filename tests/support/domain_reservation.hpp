@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -14,10 +16,43 @@
 
 namespace hlc::test {
 
+/// The lock of a domain, as launch_scripts/domain_locks.sh has it: in $XDG_RUNTIME_DIR or else
+/// /tmp/hlc-<user id>, which is created. @throws std::runtime_error if neither is a private folder
+inline std::string domain_lock_file(int domain) {
+  const auto is_private = [](const std::string& folder) {
+    struct stat status {};
+    return lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
+           status.st_uid == geteuid() && (status.st_mode & 07777U) == 0700U;
+  };
+  const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
+  std::string folder = runtime == nullptr ? "" : runtime;
+  if (!is_private(folder)) {
+    folder = "/tmp/hlc-" + std::to_string(geteuid());
+    mkdir(folder.c_str(), 0700);
+    if (!is_private(folder)) throw std::runtime_error(folder + " must be a private folder");
+  }
+  return folder + "/hlc_dds_domain_" + std::to_string(domain) + ".lock";
+}
+
+/// Whether a participant, of whatever process, is on the domain: every one is discovered by this
+/// port.
+inline bool has_participant(int domain) {
+  std::ostringstream port;
+  port << ':' << std::hex << std::uppercase << 7400 + 250 * domain;
+  std::ifstream sockets("/proc/net/udp");
+  std::string slot;
+  std::string address;
+  for (std::string line; std::getline(sockets, line);) {
+    std::istringstream(line) >> slot >> address;
+    if (address.ends_with(port.str())) return true;
+  }
+  return false;
+}
+
 /// Consecutive DDS domains that no other test on this machine uses during the lifetime of this
-/// object: lock files /tmp/hlc_dds_domain_<n>.lock. The domains are first() ... first() + count -
-/// 1, all in 1 ... 50, and with each the one 50 above it (the default controller domain), so that
-/// none is above 100.
+/// object: locks, and no participant. The domains are first() ... first() + count - 1, all in 1 ...
+/// 50, and with each the one 50 above it (the default controller domain), so that none is above
+/// 100.
 class DomainReservation {
  public:
   /// Waits up to a minute for room; throws std::runtime_error after that.
@@ -53,14 +88,11 @@ class DomainReservation {
 
   bool lock_all(int count) {
     for (int domain = first_; domain < first_ + count; ++domain) {
-      const std::string file = "/tmp/hlc_dds_domain_" + std::to_string(domain) + ".lock";
-      const int fd = open_shared(file);
-      if (fd < 0) {
-        release();
-        return false;
-      }
+      const int fd =
+          open(domain_lock_file(domain).c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
       locks_.push_back(fd);
-      if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+      if (fd < 0 || flock(fd, LOCK_EX | LOCK_NB) != 0 || has_participant(domain) ||
+          has_participant(domain + 50)) {
         release();
         return false;
       }
@@ -68,24 +100,9 @@ class DomainReservation {
     return true;
   }
 
-  /// Other users lock the same files: they are world-readable, and opened for reading
-  /// only, since Linux refuses to open another user's file in /tmp with O_CREAT.
-  static int open_shared(const std::string& file) {
-    const int present = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (present >= 0 || errno != ENOENT) {
-      return present;
-    }
-    const int made = open(file.c_str(), O_RDONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (made < 0) {
-      return open(file.c_str(), O_RDONLY | O_CLOEXEC);  // another process was faster
-    }
-    fchmod(made, 0666);  // whatever the umask
-    return made;
-  }
-
   void release() {
     for (const int fd : locks_) {
-      close(fd);
+      if (fd >= 0) close(fd);
     }
     locks_.clear();
   }
