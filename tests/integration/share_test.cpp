@@ -17,14 +17,15 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::string kScripts = test::source_folder() + "/launch_scripts/";
+const std::string kBin = test::build_folder() + "/bin";
 /// Ample: under a sanitizer the programs read maps and automata many times slower.
 const std::string kStartup_s = "120";
 
 class SharedProcesses : public testing::Test {
  protected:
   ChildProcess run_lab(std::vector<std::string> flags) {
-    flags.insert(flags.begin(), {kScripts + "run_lab.sh", "--bin", test::build_folder() + "/bin",
-                                 "--startup_timeout_s", kStartup_s});
+    flags.insert(flags.begin(),
+                 {kScripts + "run_lab.sh", "--bin", kBin, "--startup_timeout_s", kStartup_s});
     return ChildProcess(flags, folder_ / "output");
   }
   ChildProcess restart(const std::string& id, const std::string& only) {
