@@ -43,7 +43,7 @@ constexpr std::int64_t kMostMissing = std::int64_t{1} << 24U;
 
 bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNumber_t& number) {
   static_assert(std::is_trivially_copyable_v<SequenceNumber_t>);
-  static const auto available_changes_max = in_library<SequenceNumber_t (*)(const WriterProxy*)>(
+  static const auto kAvailableChangesMax = in_library<SequenceNumber_t (*)(const WriterProxy*)>(
       "_ZNK8eprosima8fastrtps4rtps11WriterProxy21available_changes_maxEv");
   const std::lock_guard lock(reader.getMutex());
   WriterProxy* proxy = nullptr;
@@ -51,7 +51,7 @@ bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNu
   const auto in_64_bits = [](const SequenceNumber_t& one) {
     return static_cast<std::int64_t>(one.to64long());
   };
-  return in_64_bits(number) <= in_64_bits(available_changes_max(proxy)) + kMostMissing;
+  return in_64_bits(number) <= in_64_bits(kAvailableChangesMax(proxy)) + kMostMissing;
 }
 
 }  // namespace
@@ -61,9 +61,9 @@ bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNu
 // removal holds: an assertion, with which Debian builds the library, then ends the process without
 // need.
 void ParticipantProxyData::clear() {
-  static const auto library_clear = in_library<void (*)(ParticipantProxyData*)>(
+  static const auto kLibraryClear = in_library<void (*)(ParticipantProxyData*)>(
       "_ZN8eprosima8fastrtps4rtps20ParticipantProxyData5clearEv");
-  library_clear(this);
+  kLibraryClear(this);
   should_check_lease_duration = false;
 }
 
@@ -79,23 +79,23 @@ bool StatefulReader::processHeartbeatMsg(const GUID_t& writer, std::uint32_t cou
                                          const SequenceNumber_t& last, bool is_final,
                                          bool is_liveliness) {
   if (!is_plausible(*this, writer, first) || !is_plausible(*this, writer, last)) return false;
-  static const auto library_function =
+  static const auto kLibraryFunction =
       in_library<bool (*)(StatefulReader*, const GUID_t&, std::uint32_t, const SequenceNumber_t&,
                           const SequenceNumber_t&, bool, bool)>(
           "_ZN8eprosima8fastrtps4rtps14StatefulReader19processHeartbeatMsgERKNS1_6GUID_tEjRKNS1_16"
           "SequenceNumber_tES8_bb");
-  return library_function(this, writer, count, first, last, is_final, is_liveliness);
+  return kLibraryFunction(this, writer, count, first, last, is_final, is_liveliness);
 }
 
 bool StatefulReader::processGapMsg(const GUID_t& writer, const SequenceNumber_t& start,
                                    const SequenceNumberSet_t& list) {
   if (!is_plausible(*this, writer, start) || !is_plausible(*this, writer, list.base()))
     return false;
-  static const auto library_function = in_library<bool (*)(
+  static const auto kLibraryFunction = in_library<bool (*)(
       StatefulReader*, const GUID_t&, const SequenceNumber_t&, const SequenceNumberSet_t&)>(
       "_ZN8eprosima8fastrtps4rtps14StatefulReader13processGapMsgERKNS1_6GUID_tERKNS1_16Sequence"
       "Number_tERKNS0_11BitmapRangeIS6_NS1_18SequenceNumberDiffELj256EEE");
-  return library_function(this, writer, start, list);
+  return kLibraryFunction(this, writer, start, list);
 }
 
 }  // namespace eprosima::fastrtps::rtps

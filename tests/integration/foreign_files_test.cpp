@@ -182,11 +182,11 @@ class FolderNames : public ForeignFiles, public testing::WithParamInterface<Name
 TEST_P(FolderNames, AreAllAllowedForARun) {
   const fs::path work = folder_ / GetParam().folder;
   fs::create_directory(work);
-  fs::copy_file(kScripts + "scenarios/paper_red_alone.yaml", work / "plain.yaml");
-  ChildProcess run({"/bin/bash", "-c",
-                    "cd -- \"$1\" && exec \"$2\" --bin \"$3\" --out \"$4\" --steps 5 --scenario "
-                    "paper_red_alone --startup_timeout_s 30 --dump-problems \"$4/problems\"",
-                    "bash", work.string(), kScripts + "run_lab.sh", kBin, GetParam().folder},
+  const std::string command =
+      "cd -- \"$1\" && exec \"$2\" --bin \"$3\" --out \"$4\" --dump-problems \"$4/problems\" "
+      "--scenario paper_red_alone --steps 5 --startup_timeout_s 30";
+  ChildProcess run({"/bin/bash", "-c", command, "bash", work.string(), kScripts + "run_lab.sh",
+                    kBin, GetParam().folder},
                    folder_ / "output");
   ASSERT_EQ(run.wait_for(120s), 0) << output();
   const fs::path out = work / GetParam().folder;

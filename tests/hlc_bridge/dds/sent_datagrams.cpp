@@ -47,20 +47,20 @@ std::vector<Datagram> SentDatagrams::so_far() const {
 extern "C" {
 
 ssize_t sendmsg(int socket, const msghdr* message, int flags) {
-  static const auto system_call =
+  static const auto kSystemCall =
       reinterpret_cast<ssize_t (*)(int, const msghdr*, int)>(dlsym(RTLD_NEXT, "sendmsg"));
   hlc::dds::record(message->msg_name, message->msg_namelen, message->msg_iov, message->msg_iovlen);
-  return system_call(socket, message, flags);
+  return kSystemCall(socket, message, flags);
 }
 
 ssize_t sendto(int socket, const void* bytes, size_t size, int flags, const sockaddr* address,
                socklen_t address_size) {
-  static const auto system_call =
+  static const auto kSystemCall =
       reinterpret_cast<ssize_t (*)(int, const void*, size_t, int, const sockaddr*, socklen_t)>(
           dlsym(RTLD_NEXT, "sendto"));
   const iovec piece{const_cast<void*>(bytes), size};
   hlc::dds::record(address, address_size, &piece, 1);
-  return system_call(socket, bytes, size, flags, address, address_size);
+  return kSystemCall(socket, bytes, size, flags, address, address_size);
 }
 
 }  // extern "C"
