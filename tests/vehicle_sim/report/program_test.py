@@ -118,7 +118,7 @@ class Program(unittest.TestCase):
         rally, no_origin = {"kind": "rally", "origin": ORIGIN}, {"kind": "campaign", "origin": {}}
         for text, reason in (("{", "must be JSON"), ("[]", "kind = null, must be a text"),
                              ('{"kind": "rally"}', "origin = null, must be an object"),
-                             (json.dumps(rally), 'kind = "rally", must be campaign or sweep'),
+                             (json.dumps(rally), 'kind = "rally", must be campaign, sweep or priorities'),
                              (json.dumps(no_origin), "origin: command = null, must be a text")):
             (self.folder / "campaign.json").write_text(text)
             self.refused("campaign.json: ", reason)
