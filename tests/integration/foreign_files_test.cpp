@@ -51,20 +51,27 @@ void PrintTo(const RuntimeFolder& one, std::ostream* out) { *out << one.name; }
 
 class RuntimeFolders : public ForeignFiles, public testing::WithParamInterface<RuntimeFolder> {};
 
+// Somebody else has the user's folder in /tmp.
 TEST_P(RuntimeFolders, AreUsedOnlyIfNobodyElseCanWriteThere) {
   const std::string runtime = path() + "/runtime";
-  ASSERT_EQ(run_locks("set -- '" + runtime + "'; " + GetParam().make +
-                      "; XDG_RUNTIME_DIR=$1; lock_domain 51 --exclusive && echo \"$lock_folder\""),
+  const int code = run_locks(
+      "lock_root='" + path() + "'; : >\"$lock_root/hlc-$EUID\"; set -- '" + runtime + "'; " +
+      GetParam().make + "; XDG_RUNTIME_DIR=$1; lock_domain 1 --exclusive && echo \"$lock_folder\"");
+  EXPECT_EQ(code, GetParam().is_used ? 0 : 2);
+  EXPECT_EQ(output() == runtime + "\n", GetParam().is_used) << output();
+}
+
+TEST_F(ForeignFiles, TheFolderForLocksDoesNotDependOnTheShell) {
+  const std::string own = path() + "/hlc-" + std::to_string(geteuid());
+  ASSERT_EQ(run_locks("lock_root='" + path() + "'; mkdir -m 700 '" + path() +
+                      "/runtime'; XDG_RUNTIME_DIR='" + path() +
+                      "/runtime'; lock_domain 1 --exclusive && echo \"$lock_folder\""),
             0)
       << output();
-  EXPECT_EQ(output() == runtime + "\n", GetParam().is_used) << output();
-  if (!GetParam().is_used) {
-    const std::string own = "/tmp/hlc-" + std::to_string(geteuid());
-    EXPECT_EQ(output(), own + "\n");
-    struct stat status {};
-    ASSERT_EQ(lstat(own.c_str(), &status), 0);
-    EXPECT_EQ(status.st_mode, S_IFDIR | 0700U);
-  }
+  EXPECT_EQ(output(), own + "\n");
+  struct stat status {};
+  ASSERT_EQ(lstat(own.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode, S_IFDIR | 0700U);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -126,7 +133,9 @@ TEST_F(ForeignFiles, ALockIsTakenByOneProcessAtATime) {
   const std::string lock = "lock_domain " + std::to_string(domain.first());
   EXPECT_EQ(run_locks(lock + " --exclusive"), 1) << "the test has it";
   EXPECT_EQ(run_locks(lock + " --shared"), 1);
-  EXPECT_EQ(run_locks("lock_domain 51 --exclusive && (lock_domain 51 --shared || exit 7)"), 7);
+  EXPECT_EQ(run_locks("lock_root='" + path() +
+                      "'; lock_domain 1 --exclusive && (lock_domain 1 --shared || exit 7)"),
+            7);
 }
 
 // Who has no lock has a port.
@@ -142,6 +151,8 @@ TEST_F(ForeignFiles, AParticipantOnTheDomainIsSeen) {
   ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   EXPECT_EQ(run_locks("domain_has " + number + " anybody"), 0);
   EXPECT_EQ(run_locks("domain_has " + number + " others"), 1) << "it is of this user";
+  EXPECT_EQ(run_locks("udp_sockets[1]=/absent; domain_has " + number + " anybody"), 0)
+      << "without IPv6";
   EXPECT_TRUE(has_participant(domain.first()));
   ::close(socket);
 }

@@ -16,20 +16,22 @@
 
 namespace hlc::test {
 
-/// The lock of a domain, as launch_scripts/domain_locks.sh has it: in $XDG_RUNTIME_DIR or else
-/// /tmp/hlc-<user id>, which is created. @throws std::runtime_error if neither is a private folder
+/// The lock of a domain, as launch_scripts/domain_locks.sh has it: in /tmp/hlc-<user id>, which is
+/// created, or else in $XDG_RUNTIME_DIR. @throws std::runtime_error if neither is a private folder
 inline std::string domain_lock_file(int domain) {
   const auto is_private = [](const std::string& folder) {
     struct stat status {};
     return lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
            status.st_uid == geteuid() && (status.st_mode & 07777U) == 0700U;
   };
-  const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
-  std::string folder = runtime == nullptr ? "" : runtime;
+  std::string folder = "/tmp/hlc-" + std::to_string(geteuid());
+  mkdir(folder.c_str(), 0700);
   if (!is_private(folder)) {
-    folder = "/tmp/hlc-" + std::to_string(geteuid());
-    mkdir(folder.c_str(), 0700);
-    if (!is_private(folder)) throw std::runtime_error(folder + " must be a private folder");
+    const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
+    if (runtime == nullptr || !is_private(runtime)) {
+      throw std::runtime_error(folder + " must be a private folder");
+    }
+    folder = runtime;
   }
   return folder + "/hlc_dds_domain_" + std::to_string(domain) + ".lock";
 }
@@ -39,12 +41,14 @@ inline std::string domain_lock_file(int domain) {
 inline bool has_participant(int domain) {
   std::ostringstream port;
   port << ':' << std::hex << std::uppercase << 7400 + 250 * domain;
-  std::ifstream sockets("/proc/net/udp");
-  std::string slot;
-  std::string address;
-  for (std::string line; std::getline(sockets, line);) {
-    std::istringstream(line) >> slot >> address;
-    if (address.ends_with(port.str())) return true;
+  for (const char* const file : {"/proc/net/udp", "/proc/net/udp6"}) {
+    std::ifstream sockets(file);
+    std::string slot;
+    std::string address;
+    for (std::string line; std::getline(sockets, line);) {
+      std::istringstream(line) >> slot >> address;
+      if (address.ends_with(port.str())) return true;
+    }
   }
   return false;
 }
