@@ -62,7 +62,7 @@ std::string read_bounded(const fs::path& path, std::string_view allowed, std::si
   // Files of /proc have no size, and others may grow.
   constexpr std::size_t kPiece = std::size_t{1} << 16U;
   std::string text;
-  text.reserve(size + 1);
+  text.reserve(size + kPiece);  // the last read, of nothing, must not make it longer
   while (true) {
     const std::size_t begin = text.size();
     text.resize(std::max(text.capacity(), begin + kPiece));

@@ -44,6 +44,7 @@ void Controller::keep_plan(std::shared_ptr<const Coupled> before) {
 bool Controller::has_kept_plan_for(
     const coordination::ReceivedMessages<coordination::Prediction>& received) const {
   if (step_.before_plan == nullptr) return false;
+  if (step_.respected.size() != step_.predecessors.size()) return false;
   return std::ranges::all_of(step_.predecessors, [&](VehicleId other) {
     const auto now = received.find(other, step_.observation.step);
     const auto then = step_.respected.find(other);

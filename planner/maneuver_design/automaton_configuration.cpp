@@ -6,6 +6,7 @@
 
 #include "planner/automaton/subgraph_yaml.hpp"
 #include "planner/automaton/vehicle_yaml.hpp"
+#include "planner/common/demand.hpp"
 #include "planner/common/node.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/maneuver_design/criteria.hpp"
@@ -167,6 +168,7 @@ ConfigurationPlaces places_of(const Node& file, const AutomatonConfiguration& co
 
 SelfLoops self_loops_named(const std::string& name) {
   const auto found = std::ranges::find(kSelfLoopNames, name);
+  HLC_DEMAND(found != kSelfLoopNames.end());
   return static_cast<SelfLoops>(found - kSelfLoopNames.begin());
 }
 

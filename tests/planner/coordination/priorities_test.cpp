@@ -57,12 +57,13 @@ Situation drawn(std::mt19937_64& random, std::size_t cars, double road_m = 4.0) 
   return Situation(std::move(traffic));
 }
 
-/// Costs of plans that depend on nothing but who of each coupled pair plans first.
+/// Costs of plans that depend on nothing but who of each coupled pair plans first. An order that is
+/// not better than the one to beat ends without any plan, as TryOrder may end it.
 class MadeUpCosts {
  public:
   MadeUpCosts(const CouplingGraph& graph, std::uint64_t seed) : graph_(&graph), seed_(seed) {}
 
-  OrderCost operator()(const Order& order, const OrderCost* /*to_beat*/ = nullptr) {
+  OrderCost operator()(const Order& order, const OrderCost* to_beat = nullptr) {
     ++num_tried_;
     OrderCost cost;
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -74,6 +75,11 @@ class MadeUpCosts {
     }
     cost.expanded = 50 * order.size();
     expanded_ += cost.expanded;
+    if (to_beat != nullptr && !is_better(cost, *to_beat)) {
+      cost.without_plan = order.size();
+      cost.cost_m2 = 0.0;
+      std::ranges::fill(cost.costs_m2, std::numeric_limits<double>::infinity());
+    }
     return cost;
   }
 
