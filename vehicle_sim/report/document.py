@@ -11,6 +11,7 @@ section without tables, in any table of the document. Code and targets of links 
 """
 
 import re
+import shlex
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -47,10 +48,20 @@ def _numbers(text: str) -> list[str]:
     return numbers
 
 
-def commands(document: Path) -> list[str]:
-    """In their order, each once."""
-    lines = (line.strip() for line in _lines(document) if line.startswith(PROGRAM) and " --out " in line)
-    return list(dict.fromkeys(line.split("  #")[0] for line in lines))
+def commands(document: Path) -> list[list[str]]:
+    """Program and arguments of those with --out runs/NAME, in their order, each once. @raises InputError"""
+    found: dict[tuple[str, ...], None] = {}
+    for number, line in enumerate(_lines(document), 1):
+        if not line.startswith(PROGRAM) or " --out" not in line:
+            continue
+        try:
+            words = shlex.split(line, comments=True)
+            if not words[words.index("--out") + 1].startswith("runs/"):
+                raise ValueError
+        except (ValueError, IndexError):
+            raise InputError(f"{document}:{number}: {line.strip()}, must have --out runs/NAME") from None
+        found[tuple(words)] = None
+    return [list(one) for one in found]
 
 
 def filled(document: Path, table_of: Callable[[str], str]) -> str:

@@ -41,21 +41,20 @@ def _parse() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _drive(command: str, out: Path) -> None:
+def _drive(command: list[str], out: Path) -> None:
     """@raises InputError for a command that fails"""
-    program, *arguments = shlex.split(command)
-    place = arguments.index("--out") + 1
-    arguments[place] = str(out / Path(arguments[place]).relative_to("runs"))
-    print(command, file=sys.stderr)
-    code = subprocess.run([ROOT / program, *arguments], cwd=ROOT, stdout=subprocess.DEVNULL, check=False).returncode
+    print(shlex.join(command), file=sys.stderr)
+    place = command.index("--out") + 1
+    command = [*command[:place], str(out / Path(command[place]).relative_to("runs")), *command[place + 1:]]
+    code = subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, check=False).returncode
     if code not in (0, 1):  # 1: runs that do not count, which the tables have
-        raise InputError(f"{command}: exit code {code}, must be 0 or 1")
+        raise InputError(f"{shlex.join(command)}: exit code {code}, must be 0 or 1")
 
 
 def _update(documents: list[Path], out: Path, may_exist: bool) -> None:
     if out.exists() and not may_exist:
         raise InputError(f"{out}: exists, must be new, or --resume be given")
-    for command in dict.fromkeys(one for document in documents for one in commands(document)):
+    for command in [one for document in documents for one in commands(document)]:
         _drive(command, out)
     texts = {document: filled(document, partial(page_table, out)) for document in documents}
     for document, text in texts.items():

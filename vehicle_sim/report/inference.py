@@ -88,7 +88,8 @@ def holm(p: pd.Series) -> pd.Series:
 
 
 TEST_WORDS = (
-    "p: Wilcoxon's signed-rank test over the starts, corrected by Holm's method within the family; * holds at 5 %, and "
+    "p: Wilcoxon's signed-rank test over the starts, of differences rounded to the decimals shown (those of 0 are left "
+    "out), corrected by Holm's method within the family; * holds at 5 %, and "
     "(†) with an interval of the mean that includes 0: most starts agree, few large differences do not. "
 )
 

@@ -2,7 +2,7 @@
 
     FOLDER > HEADING > HEADING [number N] [where COLUMN = VALUE or VALUE and COLUMN = VALUE]
 
-Headings are those above the table, from outside to inside; some may be left out. N counts the tables from 1 on. A column
+Names with " where ", " and ", " or " or " =" cannot be named. Headings are those above the table, from outside to inside; some may be left out. N counts the tables from 1 on. A column
 of which one value remains stays; the rows keep their order.
 """
 
@@ -24,7 +24,7 @@ def page_table(runs: Path, address: str) -> str:
     try:
         lines = page.read_text(encoding="utf-8").splitlines()
     except OSError as error:
-        raise InputError(f"{page}: {error.strerror}, must be a page of evaluate --report") from None
+        raise InputError(f"{page}: {error.strerror}, must be a page that --report made") from None
     found, number = _tables(lines, headings), int(parts["number"] or 1)
     if not 1 <= number <= len(found):
         raise InputError(f"table {address}, {page} has {len(found)} below such headings")

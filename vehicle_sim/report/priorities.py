@@ -42,6 +42,8 @@ def read_priorities(folder: Path, origin: dict[str, str], plan: dict[str, object
                          | {"step_ms": rows.numbers("step_ms", needed=pd.Series(True, index=range(len(rows))))})
     if not steps.groupby("run").step.count().reindex(runs.run, fill_value=0).eq(runs.steps).all():
         rows.fail(f"{len(steps)} rows", f"{runs.steps.sum()}: every step of every run of runs.csv")
+    if not steps.run.isin(runs.run).all():
+        rows.fail(f"run {steps.run[~steps.run.isin(runs.run)].iloc[0]}", "a run of runs.csv")
     rows = Rows(folder / "gaps.csv")
     gaps = pd.DataFrame({"run": rows.integers("run"), "vehicles": rows.integers("vehicles")}
                         | {name: rows.numbers(name, needed=pd.Series(True, index=range(len(rows))))

@@ -73,7 +73,7 @@ class PageTable(Documents):
 
     def test_names_what_is_not_there(self) -> None:
         runs = self.page()
-        for address, message in {"none > By search": "must be a page of evaluate --report",
+        for address, message in {"none > By search": "must be a page that --report made",
                                  "rules > By lap": "has 0 below such headings",
                                  "rules > Sweep number 4": "has 2 below such headings",
                                  "rules > By search where laps = 1": "column laps, must be one of search, lap [s]",
@@ -101,7 +101,13 @@ class Document(Documents):
             "    build/release/bin/evaluate --a --out runs/a --report\n    build/release/bin/plan_problem p.yaml\n")
 
     def test_commands_with_an_output_are_those_that_make_rows_each_once(self) -> None:
-        self.assertEqual(commands(self.document(self.TEXT)), ["build/release/bin/evaluate --a --out runs/a --report"])
+        self.assertEqual(commands(self.document(self.TEXT)),
+                         [["build/release/bin/evaluate", "--a", "--out", "runs/a", "--report"]])
+
+    def test_a_command_with_an_output_elsewhere_is_refused_at_its_line(self) -> None:
+        for arguments in ("--out /tmp/a", "--report --out", "--out 'runs/a", "--out=runs/a"):
+            with self.subTest(arguments=arguments), self.assertRaisesRegex(InputError, "DOCUMENT.md:2: .* must have --out"):
+                commands(self.document(f"\n    build/release/bin/evaluate {arguments}\n"))
 
     def test_tables_are_replaced_and_all_else_stays(self) -> None:
         text = filled(self.document(self.TEXT), lambda address: f"<{address}>\n")
