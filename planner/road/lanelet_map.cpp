@@ -229,7 +229,11 @@ LaneletMap parse_lanelet_map(std::string_view xml, const std::string& name) {
 }
 
 LaneletMap read_lanelet_map(const std::filesystem::path& file) {
-  return parse_lanelet_map(read_regular_file(file, "a CommonRoad 2020a file"), file.string());
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) {
+    throw std::runtime_error(file.string() + ": cannot be read, must be a CommonRoad 2020a file");
+  }
+  return parse_lanelet_map(read_file(file, kMostInputBytes), file.string());
 }
 
 std::string to_commonroad_xml(const LaneletMap& map) {

@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Programs by their names, scripts by their paths from the folder of the programs.
+/// Programs by their names, scripts that are run (others are parts of these) by their paths from
+/// the folder of the programs.
 std::vector<std::string> commands() {
   std::vector<std::string> all;
   std::istringstream programs(HLC_PROGRAMS);
@@ -25,7 +26,10 @@ std::vector<std::string> commands() {
   const fs::path bin = fs::path(test::build_folder()) / "bin";
   const fs::path root = test::source_folder();
   for (const auto& entry : fs::directory_iterator(root / "launch_scripts")) {
-    if (entry.path().extension() == ".sh") all.push_back(entry.path().lexically_relative(bin));
+    const bool is_program =
+        (entry.status().permissions() & fs::perms::owner_exec) != fs::perms::none;
+    if (is_program && entry.path().extension() == ".sh")
+      all.push_back(entry.path().lexically_relative(bin));
   }
   all.push_back((root / "tests/verify/verify.sh").lexically_relative(bin));
   return all;

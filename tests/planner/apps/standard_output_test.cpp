@@ -30,7 +30,7 @@ TEST(StandardOutput, WhatIsPrintedOnAFullDeviceIsAFailureInOneLine) {
       {"plan_problem --json " + kProblem, 2},
       {"plan_problem --help", 2},
       {"plan_problem " + kJointProblem, 2},
-      {"compare_priorities " + kThreeCars + " --strategies constant --steps 1", 2},
+      {"compare_priorities " + kThreeCars + " --strategies constant --steps 1", 3},
       {"price_of_priority " + kThreeCars + " --problems 1", 2},
       {"propose_budget " + kScenario + " --steps 3 --engine best_first --deadline_ms 1000", 2},
       {"ompl_example " + kProblem + " --seconds 0.01 --runs 1", 2},
