@@ -49,21 +49,29 @@ void VehicleMachine::on(Event event) {
   std::visit([this](auto& what) { take(std::move(what)); }, event);
 }
 
-template <class Command>
-void VehicleMachine::take(Command command) {
-  newest_answer_ = std::max(newest_answer_, command.create_stamp);
-  wait_timed_out_ = false;
-  vehicle_.receive(std::move(command));
-}
-
 void VehicleMachine::take(const SystemTrigger& trigger) {
   if (trigger.next_start == kStopSymbol) stop_symbol_ = true;
+}
+
+void VehicleMachine::receive_commands(const Instant& now, Actions& actions) {
+  const RunParameters& parameters = start_up_.parameters();
+  const Nanoseconds period = parameters.complete() ? parameters.period() : 0;
+  for (Command& any : std::exchange(received_.commands, {})) {
+    const auto stamp = std::visit([](const auto& command) { return command.create_stamp; }, any);
+    const machine::StampedMessage message{"command", middleware_name, options_.vehicle.vehicle_id,
+                                          stamp};
+    if (!received_.check.accepts(message, now, period, actions)) continue;
+    received_.newest_answer = std::max(received_.newest_answer, stamp);
+    wait_timed_out_ = false;
+    std::visit([this](auto& command) { vehicle_.receive(std::move(command)); }, any);
+  }
 }
 
 // --- what to do ---------------------------------------------------------------------------------
 
 std::vector<VehicleMachine::Action> VehicleMachine::advance(const Instant& now) {
   Actions actions;
+  receive_commands(now, actions);
   if (exit_code_) return actions;
   if (is_end_requested_) {
     exit_code_ = kExitGood;
@@ -175,7 +183,7 @@ std::string VehicleMachine::who_is_missing() const {
 
 bool VehicleMachine::is_answered(Nanoseconds list) const {
   const std::uint8_t id = options_.vehicle.vehicle_id;
-  return stop_symbol_ || newest_answer_ >= list || wait_timed_out_ ||
+  return stop_symbol_ || received_.newest_answer >= list || wait_timed_out_ ||
          presence_.lab.lost.contains(middleware_name(id)) ||
          presence_.lab.lost.contains(controller_name(id));
 }

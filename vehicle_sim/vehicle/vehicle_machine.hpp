@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "hlc_bridge/machine/log_line.hpp"
 #include "hlc_bridge/machine/machine.hpp"
 #include "hlc_bridge/machine/pacing_rules.hpp"
+#include "hlc_bridge/machine/stamp_check.hpp"
 #include "hlc_bridge/machine/start_up.hpp"
 #include "hlc_bridge/machine/ticks.hpp"
 #include "hlc_bridge/messages/messages.hpp"
@@ -47,6 +50,9 @@ struct VehiclePresence {
 /// the last list before it; that wait ends when the middleware or the controller is lost, or after
 /// the patience (then they are not awaited until a command is received again).
 ///
+/// A command whose create_stamp is not plausible (StampCheck) is dropped, because it would replace
+/// every later command. It is no answer to a list.
+///
 /// A tick that is too late is made up for (the plant must keep up with the clock), but its state is
 /// not published.
 ///
@@ -74,8 +80,18 @@ class VehicleMachine {
   [[nodiscard]] WakeUp wake_up() const;
   [[nodiscard]] std::size_t awaited() const;
   [[nodiscard]] std::optional<int> exit_code() const { return exit_code_; }
+  /// Commands dropped because of their create_stamp.
+  [[nodiscard]] std::uint64_t implausible_commands() const { return received_.check.dropped(); }
 
  private:
+  using Command =
+      std::variant<TrajectoryCommand, PathTrackingCommand, SpeedCurvatureCommand, DirectCommand>;
+  /// Commands are judged by the time of the next advance, because an event has none.
+  struct Received {
+    std::vector<Command> commands;  ///< since the last advance
+    machine::StampCheck check;
+    Nanoseconds newest_answer{};  ///< largest create_stamp of those not dropped
+  };
   /// A tick that has begun and waits for its answer.
   struct PendingTick {
     Nanoseconds time{};
@@ -83,13 +99,16 @@ class VehicleMachine {
   };
   using Actions = std::vector<Action>;
 
-  template <class Command>
-  void take(Command command);
+  void take(TrajectoryCommand command) { received_.commands.emplace_back(std::move(command)); }
+  void take(PathTrackingCommand command) { received_.commands.emplace_back(std::move(command)); }
+  void take(SpeedCurvatureCommand command) { received_.commands.emplace_back(command); }
+  void take(DirectCommand command) { received_.commands.emplace_back(command); }
   void take(const Parameter& parameter) { start_up_.take(parameter); }
   void take(const SystemTrigger& trigger);
   void take(VehiclePresence presence) { presence_ = std::move(presence); }
   void take(const machine::StopSignal& /*signal*/) { is_end_requested_ = true; }
 
+  void receive_commands(const Instant& now, Actions& actions);
   [[nodiscard]] bool is_prepared(const Instant& now, Actions& actions);
   [[nodiscard]] std::string parameter_fault() const;
   [[nodiscard]] bool is_connected() const;
@@ -113,7 +132,7 @@ class VehicleMachine {
   std::optional<PendingTick> pending_;
   std::optional<Nanoseconds> last_tick_;
   VehiclePresence presence_;
-  Nanoseconds newest_answer_{};  ///< largest create_stamp received
+  Received received_;
   bool wait_timed_out_{};
   bool stop_symbol_{};       ///< received; the next tick brakes
   bool is_stopping_{};       ///< it brakes

@@ -8,6 +8,7 @@
 
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
+#include "hlc_bridge/messages/validate.hpp"
 
 namespace hlc::simulated_vehicle::vehicle_machine_test {
 namespace {
@@ -143,6 +144,14 @@ TEST_F(LogicalVehicle, ATickWaitsForTheAnswerToTheLastList) {
   ASSERT_EQ(states.size(), 1U);
   EXPECT_EQ(states[0].create_stamp, kTick);
   EXPECT_EQ(vehicle_.wake_up().run, 2 * kTick);
+}
+
+TEST_F(LogicalVehicle, ACommandStampedFarAheadIsNoAnswer) {
+  wait_for_answer();
+  vehicle_.on(answer_to(~Nanoseconds{}));
+  EXPECT_THAT(of<VehicleState>(advance()), IsEmpty());
+  vehicle_.on(answer_to(kListOffset));
+  EXPECT_EQ(of<VehicleState>(advance()).size(), 1U);
 }
 
 TEST_F(LogicalVehicle, WhoIsLostIsNotWaitedFor) {
@@ -306,6 +315,43 @@ TEST_F(RealVehicle, OneThatKeepsRunningListensAgainAfterTheStop) {
     }
     EXPECT_EQ(vehicle_.exit_code(), std::nullopt);
   }
+}
+
+/// Stands at the start pose; followed for `kCommandLifetime` from `create` on.
+TrajectoryCommand standing(Nanoseconds create) {
+  TrajectoryCommand command = answer_to(create);
+  for (Nanoseconds t = 0; t <= 2 * kNanosecondsPerSecond; t += 50'000'000) {
+    command.points.push_back({.t = create - kTick + t, .x_m = 1.0, .y_m = 2.0});
+  }
+  return command;
+}
+
+TEST_F(RealVehicle, FollowsItsControllerAfterACommandStampedFarAhead) {
+  static_cast<void>(advance_at(0));
+  std::vector<LogLine> lines;
+  for (const Nanoseconds ahead : {kMostLead + kTick + 1, ~Nanoseconds{} - kReal}) {
+    TrajectoryCommand forged = standing(kReal + ahead);
+    forged.valid_after_stamp = 0;
+    vehicle_.on(forged);
+  }
+  vehicle_.on(standing(kReal));
+  const auto actions = advance_at(kTick);
+  ASSERT_EQ(of<result::DrivenSample>(actions).size(), 1U);
+  EXPECT_EQ(of<result::DrivenSample>(actions)[0].command_create, kReal);
+  EXPECT_EQ(vehicle_.implausible_commands(), 2U);
+  EXPECT_THAT(of<LogLine>(actions),
+              ElementsAre(Field(&LogLine::text, HasSubstr("command of middleware_3 dropped"))));
+}
+
+TEST_F(RealVehicle, FollowsACommandStampedAheadByLessThanTheBound) {
+  static_cast<void>(advance_at(0));
+  TrajectoryCommand early = standing(kReal);
+  early.create_stamp = kReal + kTick + kMostLead;
+  vehicle_.on(early);
+  const auto samples = of<result::DrivenSample>(advance_at(kTick));
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_EQ(samples[0].command_create, early.create_stamp);
+  EXPECT_EQ(vehicle_.implausible_commands(), 0U);
 }
 
 TEST_F(RealVehicle, LogsOnceWhyItStops) {
