@@ -103,12 +103,28 @@ void MiddlewareMachine::take(GoalState& goal, const Instant& /*now*/) {
   cycle_.take(std::move(goal));
 }
 
-void MiddlewareMachine::take(const PublishedState& published, const Instant& /*now*/) {
-  lists_.add(published.vehicle_id, published.state);
+bool MiddlewareMachine::is_plausible(const machine::StampedMessage& message, const Instant& now) {
+  const Nanoseconds period = cycle_.has_begun() ? cycle_.parameters().period() : 0;
+  return stamp_check_.accepts(message, now, period, actions_);
+}
+
+void MiddlewareMachine::take(const PublishedState& published, const Instant& now) {
+  const VehicleState& state = published.state;
+  if (!is_plausible({"state", vehicle_name, published.vehicle_id,
+                     std::max(state.create_stamp, state.valid_after_stamp)},
+                    now)) {
+    return;
+  }
+  lists_.add(published.vehicle_id, state);
   due_states_.received(published.vehicle_id);
 }
 
-void MiddlewareMachine::take(const PublishedObservation& published, const Instant& /*now*/) {
+void MiddlewareMachine::take(const PublishedObservation& published, const Instant& now) {
+  if (!is_plausible(
+          {"observation", vehicle_name, published.vehicle_id, published.observation.create_stamp},
+          now)) {
+    return;
+  }
   lists_.add(published.vehicle_id, published.observation);
 }
 
@@ -117,7 +133,10 @@ void MiddlewareMachine::take(const ReadyStatus& status, const Instant& /*now*/) 
 }
 
 void MiddlewareMachine::take(VehicleCommand& command, const Instant& now) {
-  due_answers_.received(vehicle_of(command));
+  const std::uint8_t id = vehicle_of(command);
+  const auto stamp = std::visit([](const auto& any) { return any.create_stamp; }, command);
+  if (!is_plausible({"command", controller_name, id, stamp}, now)) return;
+  due_answers_.received(id);
   forwarder_.receive(std::move(command), now.run, lists_.newest_list(), cycle_.withholds_commands(),
                      actions_);
 }
@@ -182,6 +201,10 @@ void MiddlewareMachine::leave(int exit_code, const Instant& now) {
   if (forwarder_.missed_answers() > 0) {
     actions_.emplace_back(machine::warning(
         fmt::format("{} lists without an answer in time", forwarder_.missed_answers())));
+  }
+  if (stamp_check_.dropped() > 0) {
+    actions_.emplace_back(machine::warning(
+        fmt::format("{} messages dropped because of their stamps", stamp_check_.dropped())));
   }
   const bool is_awaited = cycle_.is_stopped() && peers_.commands_are_sent;
   ending_.exit_code = exit_code;

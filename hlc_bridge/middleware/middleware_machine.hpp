@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hlc_bridge/machine/lab_control_watch.hpp"
+#include "hlc_bridge/machine/stamp_check.hpp"
 #include "hlc_bridge/machine/start_up.hpp"
 #include "hlc_bridge/machine/ticks.hpp"
 #include "hlc_bridge/middleware/command_forwarder.hpp"
@@ -34,6 +35,10 @@ namespace hlc::middleware {
 /// Lost peers are not awaited, nor peers that have been silent for the patience, until their next
 /// message. Without patience lists are published from the first period on, whatever the presence;
 /// answers that did not arrive within the period are counted.
+///
+/// Messages of vehicles and controllers whose stamp is not plausible (StampCheck) are dropped, and
+/// counted in the log at the end: they would displace all later ones in the lists, or count as the
+/// answer to all later lists.
 ///
 /// Controllers receive the stop symbol kLeaveTime before their middleware leaves, or leave earlier,
 /// so that they do not take it for lost.
@@ -71,6 +76,7 @@ class MiddlewareMachine {
   void take(const PublishedObservation& published, const Instant& now);
   void take(const ReadyStatus& status, const Instant& now);
   void take(VehicleCommand& command, const Instant& now);
+  [[nodiscard]] bool is_plausible(const machine::StampedMessage& message, const Instant& now);
 
   void start(const Instant& now);
   [[nodiscard]] std::string missing_peers() const;
@@ -99,6 +105,7 @@ class MiddlewareMachine {
   CommandForwarder forwarder_;
   ExperimentCycle cycle_;
   machine::LabControlGrace grace_;
+  machine::StampCheck stamp_check_;
   Ending ending_;
 };
 

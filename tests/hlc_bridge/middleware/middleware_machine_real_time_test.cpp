@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/messages/validate.hpp"
 #include "hlc_bridge/middleware/middleware_machine.hpp"
 #include "tests/hlc_bridge/middleware/middleware_in_memory.hpp"
 
@@ -101,6 +102,45 @@ TEST_F(ImpatientMiddlewareTest, ChecksCommandsAgainstTheNewestListAndTheClock) {
   run_.on(command(1, list));
   EXPECT_EQ(run_.count_lines("logged once"), 2U);
   EXPECT_EQ(run_.all<VehicleCommand>().size(), 3U);
+}
+
+TEST_F(ImpatientMiddlewareTest, ListsShowAVehicleWhoseBufferWouldBeFullOfStatesOfTheFuture) {
+  const Nanoseconds hour = 3600 * kNanosecondsPerSecond;
+  const Nanoseconds now = run_.now().run;
+  run_.on(test::published_state(1, now));
+  for (std::size_t i = 0; i < StateBuffer::kCapacity; ++i) {
+    PublishedState forged = test::published_state(1, now + hour + i);
+    if (i % 2 == 0) forged.state.create_stamp = now;
+    run_.post(forged);
+  }
+  pass_period();
+  ASSERT_EQ(run_.all<VehicleStateList>().size(), 1U);
+  EXPECT_EQ(run_.all<VehicleStateList>()[0].states.at(0).create_stamp, now);
+  EXPECT_EQ(run_.count_lines("state of " + vehicle_name(1) + " dropped: stamp must be <="), 1U);
+  run_.on(test::published_state(2, ~Nanoseconds{}));
+  EXPECT_EQ(run_.count_lines("state of " + vehicle_name(2) + " dropped: stamp must be <="), 1U);
+  run_.on(PublishedObservation{.vehicle_id = 2, .observation = {.create_stamp = now + hour}});
+  EXPECT_EQ(run_.count_lines("observation of " + vehicle_name(2) + " dropped: stamp must be <="),
+            1U);
+  run_.on(machine::StopSignal{});
+  EXPECT_EQ(run_.count_lines("2002 messages dropped because of their stamps"), 1U);
+}
+
+TEST_F(ImpatientMiddlewareTest, ListsHoldStatesAndAnswersCountThatAreALittleEarly) {
+  run_.on(test::published_state(1, run_.now().run + kMostLead - kStateDelay));
+  run_.on(command(1, run_.now().run + kMostLead));
+  EXPECT_EQ(run_.count_lines("dropped"), 0U);
+  EXPECT_EQ(run_.all<VehicleCommand>().size(), 1U);
+}
+
+TEST_F(ImpatientMiddlewareTest, ACommandStampedFarAheadIsNeitherForwardedNorAnAnswer) {
+  run_.on(SystemTrigger{5});
+  run_.on(command(1, ~Nanoseconds{}));
+  EXPECT_TRUE(run_.all<VehicleCommand>().empty());
+  EXPECT_EQ(run_.count_lines("command of high_level_controller_1 dropped"), 1U);
+  pass_period();
+  pass_period();
+  EXPECT_EQ(run_.count_lines("no answer of high_level_controller_1 to a state list"), 1U);
 }
 
 TEST_F(ImpatientMiddlewareTest, CountsMissedAnswersFromTheTriggerOn) {
