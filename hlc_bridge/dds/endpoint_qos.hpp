@@ -43,7 +43,10 @@ struct TopicQos {
 /// on a domain of that role.
 [[nodiscard]] TopicQos topic_qos(TopicId id, DomainRole role, Transport transport);
 
-/// Vehicles on one keyed topic at most.
-inline constexpr int kMaxInstances = 32;
+/// Instances of a keyed topic: one for each value that its key, an octet, can have, not for each
+/// vehicle (kMaxLabVehicleId). The library gives an instance to every key that arrives, before
+/// anybody sees that it is no vehicle's, keeps it while its writer is there, and rejects samples of
+/// new keys once none is left: 40 messages with invalid ids would silence every vehicle.
+inline constexpr int kMaxInstances = 256;
 
 }  // namespace hlc::dds

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
+#include "hlc_bridge/dds/endpoint_qos.hpp"
 #include "hlc_bridge/dds/participant_core.hpp"
+#include "hlc_bridge/dds/wire.hpp"
 #include "hlc_bridge/dds/writer.hpp"
 #include "hlc_bridge/dds/writer_endpoint.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
@@ -133,6 +136,44 @@ TEST_F(ForeignMessages, InvalidValuesAreDroppedAndCounted) {
   ASSERT_EQ(received.size(), 1U);
   EXPECT_EQ(received.front().speed_mps, 1.0);
   EXPECT_EQ(mailbox.reader().dropped(), 1U);
+}
+
+/// A type of ours as our writers have it.
+fdds::TypeSupport outcome_type() {
+  auto type = std::make_unique<Wire<coordination::Outcome>::PubSubType>();
+  type->auto_fill_type_object(false);
+  type->auto_fill_type_information(false);
+  return fdds::TypeSupport{type.release()};
+}
+
+// Every key that a reader has received takes one of its instances until the end.
+TEST(ForeignKeys, InvalidVehicleIdsTakeNoInstanceFromAVehicle) {
+  const test::DomainReservation domain;
+  Participant honest{on_loopback("honest", domain.first(), DomainRole::kController)};
+  Participant foreign{on_loopback("foreign", domain.first(), DomainRole::kController)};
+  Participant receiver{on_loopback("receiver", domain.first(), DomainRole::kController)};
+  const Topic<coordination::Outcome> topic = topics::outcome();
+  Mailbox<coordination::Outcome> mailbox{receiver, topic};
+  Writer<coordination::Outcome> writer{honest, topic};
+  EndpointQos qos = topic_qos(topic.id, DomainRole::kController, Transport::kLoopback).writer;
+  qos.max_instances = 256;
+  qos.max_samples = qos.max_instances * qos.max_samples_per_instance;
+  WriterEndpoint endpoint{foreign.core(), topic.name, outcome_type(), qos, {}};
+  ASSERT_TRUE(mailbox.reader().wait_for_matched({"honest", "foreign"}, soon()));
+  ASSERT_TRUE(writer.wait_for_matched(1, soon()));
+  ASSERT_TRUE(endpoint.peers().wait_for(1, soon()));
+  const auto write = [&](int id) {
+    OutcomeMessage message;
+    message.vehicle_id(static_cast<std::uint8_t>(id));
+    endpoint.write(&message);
+  };
+  constexpr int kInvalid = 40;
+  for (int id = 0; id < kInvalid; ++id) write(255 - id);
+  write(1);
+  EXPECT_EQ(mailbox.wait_for(1).size(), 1U);
+  ASSERT_TRUE(writer.write({.vehicle = VehicleId{kMaxLabVehicleId}}));
+  EXPECT_EQ(mailbox.wait_for(2).size(), 2U);
+  EXPECT_EQ(mailbox.reader().dropped(), static_cast<std::uint64_t>(kInvalid));
 }
 
 }  // namespace
