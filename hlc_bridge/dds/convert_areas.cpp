@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hlc_bridge/messages/validate.hpp"
+
 namespace hlc::dds {
 
 PolygonMessage polygon_to_wire(const ConvexPolygon& polygon) {
@@ -29,13 +31,7 @@ ConvexPolygon polygon_from_wire(const PolygonMessage& wire) {
 }
 
 bool is_valid(const PolygonMessage& wire) {
-  const auto& vertices = wire.vertices_m();
-  return vertices.size() <= kMaxEntries &&
-         std::ranges::all_of(vertices,
-                             [](const PointMessage& point) {
-                               return is_near(point.x_m()) && is_near(point.y_m());
-                             }) &&
-         (vertices.empty() || polygon_from_wire(wire).vertices_m.size() >= 3);
+  return wire.vertices_m().size() <= kMaxEntries && is_valid_area(polygon_from_wire(wire));
 }
 
 std::vector<PolygonMessage> polygons_to_wire(const std::vector<ConvexPolygon>& areas_m) {

@@ -17,7 +17,7 @@ namespace hlc::dds {
 }
 
 [[nodiscard]] PolygonMessage polygon_to_wire(const ConvexPolygon& polygon);
-/// Three corners and more, or none; near; no more than any program sends.
+/// is_valid_area, and no more corners than any program sends.
 [[nodiscard]] bool is_valid(const PolygonMessage& wire);
 /// Without consecutive duplicate corners. @pre is_valid
 [[nodiscard]] ConvexPolygon polygon_from_wire(const PolygonMessage& wire);

@@ -2,6 +2,7 @@
 
 #include "hlc_bridge/messages/instant.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
+#include "planner/geometry/polygon.hpp"
 
 /// What every received message must fulfil, in one place: the machines drop what does not, so that
 /// no single message, forged or damaged, takes precedence over all later ones.
@@ -20,5 +21,15 @@ inline constexpr Nanoseconds kMostLead = kNanosecondsPerSecond;
                                                 Nanoseconds period) {
   return !now.has_begun || stamp <= now.run || stamp - now.run <= kMostLead + period;
 }
+
+/// A corner of a received area may lie this much inside the line through its neighbours: above the
+/// rounding of our own areas, rotated and far from the origin, and below every relevant length.
+inline constexpr double kConvexTolerance_m = 1e-6;
+
+/// True if tests of intersection mean anything for this received area: no corners (the empty area);
+/// or three different ones and more, each coordinate finite and at most kLargestCoordinate_m,
+/// counter-clockwise, once around, convex up to kConvexTolerance_m, area > 0. Repeated corners
+/// count once. O(number of corners).
+[[nodiscard]] bool is_valid_area(const ConvexPolygon& area);
 
 }  // namespace hlc

@@ -99,7 +99,7 @@ TEST(OwnConversion, LeavesOutCornersOfPolygonsThatComeTwice) {
   EXPECT_EQ(read->reachable_area_m, expected);
 }
 
-TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
+TEST(OwnConversionRefuses, PolygonsThatAreNoArea) {
   ConvexPolygon too_many;
   for (int i = 0; i < 1001; ++i) too_many.vertices_m.emplace_back(i, i * i);
   const std::vector<ConvexPolygon> bad{
@@ -109,6 +109,9 @@ TEST(OwnConversionRefuses, PolygonsOfOneOrTwoVerticesOrWithoutPlace) {
       {{Point{0, 0}, Point{1, 0}, Point{kNan, 1}}},
       {{Point{0, 0}, Point{1, 0}, Point{1, std::numeric_limits<double>::infinity()}}},
       {{Point{0, 0}, Point{-1.001e9, 0}, Point{0, 1}}},
+      {{Point{0, 0}, Point{0, 1}, Point{1, 0}}},               // clockwise
+      {{Point{0, 0}, Point{1, 0}, Point{0, 1}, Point{1, 1}}},  // bow tie
+      {{Point{0, 0}, Point{4, 0}, Point{1, 1}, Point{0, 4}}},  // dent
       too_many};
   for (const ConvexPolygon& polygon : bad) {
     auto traffic = good<coordination::Traffic>();

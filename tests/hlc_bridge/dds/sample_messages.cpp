@@ -235,12 +235,9 @@ auto list(Random& random, std::uint64_t max_size, Make make) {
 Point point(Random& random) { return {number(random), number(random)}; }
 
 ConvexPolygon polygon(Random& random) {
-  ConvexPolygon result;
-  const std::uint64_t vertices = whole(random, 12);
-  for (std::uint64_t i = 0; vertices >= 3 && i < vertices; ++i) {
-    result.vertices_m.emplace_back(number(random), number(random));
-  }
-  return result;
+  std::vector<Point> points;
+  for (std::uint64_t i = whole(random, 12); i > 0; --i) points.push_back(point(random));
+  return convex_hull(std::move(points));
 }
 
 coordination::OccupiedAreas areas(Random& random) {
