@@ -29,7 +29,7 @@ MiddlewareMachine::MiddlewareMachine(MiddlewareSettings settings)
       grace_{settings_.rules.pacing.lab_control_grace} {}
 
 std::vector<MiddlewareAction> MiddlewareMachine::advance(const Instant& now) {
-  for (Event& event : std::exchange(inbox_, {})) {
+  for (Event& event : std::exchange(inbox_.events, {})) {
     std::visit([&](auto& what) { take(what, now); }, event);
   }
   look_for_end(now);
@@ -105,7 +105,7 @@ void MiddlewareMachine::take(GoalState& goal, const Instant& /*now*/) {
 
 bool MiddlewareMachine::is_plausible(const machine::StampedMessage& message, const Instant& now) {
   const Nanoseconds period = cycle_.has_begun() ? cycle_.parameters().period() : 0;
-  return stamp_check_.accepts(message, now, period, actions_);
+  return inbox_.stamp_check.accepts(message, now, period, actions_);
 }
 
 void MiddlewareMachine::take(const PublishedState& published, const Instant& now) {
@@ -202,9 +202,9 @@ void MiddlewareMachine::leave(int exit_code, const Instant& now) {
     actions_.emplace_back(machine::warning(
         fmt::format("{} lists without an answer in time", forwarder_.missed_answers())));
   }
-  if (stamp_check_.dropped() > 0) {
+  if (inbox_.stamp_check.dropped() > 0) {
     actions_.emplace_back(machine::warning(
-        fmt::format("{} messages dropped because of their stamps", stamp_check_.dropped())));
+        fmt::format("{} messages dropped because of their stamps", inbox_.stamp_check.dropped())));
   }
   const bool is_awaited = cycle_.is_stopped() && peers_.commands_are_sent;
   ending_.exit_code = exit_code;

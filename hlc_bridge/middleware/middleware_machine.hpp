@@ -51,7 +51,7 @@ class MiddlewareMachine {
 
   explicit MiddlewareMachine(MiddlewareSettings settings);
 
-  void on(Event event) { inbox_.push_back(std::move(event)); }
+  void on(Event event) { inbox_.events.push_back(std::move(event)); }
   [[nodiscard]] std::vector<Action> advance(const Instant& now);
   [[nodiscard]] WakeUp wake_up() const;
   [[nodiscard]] std::size_t awaited() const;
@@ -61,6 +61,10 @@ class MiddlewareMachine {
 
  private:
   enum class Phase : std::uint8_t { kStarting, kIdle, kStates, kAnswers, kLeaving, kFinished };
+  struct Inbox {
+    std::vector<Event> events;  ///< since the last advance
+    machine::StampCheck stamp_check;
+  };
   struct Ending {
     bool is_asked{};  ///< StopSignal
     int exit_code{};
@@ -92,7 +96,7 @@ class MiddlewareMachine {
   [[nodiscard]] bool answers_are_in(const Instant& now);
 
   MiddlewareSettings settings_;
-  std::vector<Event> inbox_;
+  Inbox inbox_;
   std::vector<Action> actions_;
   Phase phase_{Phase::kStarting};
   MiddlewarePeers peers_;
@@ -105,7 +109,6 @@ class MiddlewareMachine {
   CommandForwarder forwarder_;
   ExperimentCycle cycle_;
   machine::LabControlGrace grace_;
-  machine::StampCheck stamp_check_;
   Ending ending_;
 };
 
