@@ -7,6 +7,7 @@
 
 #include "hlc_bridge/hlc/observation.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
 namespace hlc::high_level_controller {
@@ -119,7 +120,19 @@ bool HlcMachine::ends(const Instant& now) {
   return ending_.code.has_value();
 }
 
+/// The step of a list never decreases: after one of the far future no list would be answered.
+void HlcMachine::drop_lists_of_the_future(const Instant& now) {
+  std::vector<machine::LogLine> lines;
+  const std::uint8_t vehicle = controller().options().vehicle.value;
+  std::erase_if(lists_, [&](const VehicleStateList& list) {
+    return !stamp_check_.accepts({"state list", middleware_name, vehicle, list.t_now}, now,
+                                 step_ns(controller()), lines);
+  });
+  for (machine::LogLine& line : lines) actions_.add(std::move(line));
+}
+
 bool HlcMachine::take_list(const Instant& now) {
+  drop_lists_of_the_future(now);
   if (ends(now)) return false;
   life_.publish_ready(now.wall, controller(), has_started(), actions_);
   if (lists_.empty()) return false;

@@ -18,6 +18,7 @@
 #include "hlc_bridge/hlc/life_cycle.hpp"
 #include "hlc_bridge/hlc/operator_notes.hpp"
 #include "hlc_bridge/hlc/subgraph_switching.hpp"
+#include "hlc_bridge/machine/stamp_check.hpp"
 #include "hlc_bridge/messages/instant.hpp"
 
 namespace hlc::high_level_controller {
@@ -121,6 +122,7 @@ class HlcMachine {
 
   // One phase each; true if the next one can follow in the same advance.
   [[nodiscard]] bool go_on(const Instant& now);
+  void drop_lists_of_the_future(const Instant& now);
   [[nodiscard]] bool take_list(const Instant& now);
   [[nodiscard]] bool gather(const Instant& now);
   [[nodiscard]] bool prepare(const Instant& now);
@@ -149,6 +151,7 @@ class HlcMachine {
   OperatorNotes notes_;
   HlcActions actions_;  ///< since the last advance
 
+  machine::StampCheck stamp_check_;     ///< of lists
   std::deque<VehicleStateList> lists_;  ///< not answered yet
   Phase phase_{Phase::kIdle};
   Current current_;  ///< in all phases but kIdle

@@ -68,6 +68,8 @@ class DrivenMachine {
         rules_(rules),
         step_(rules.start == StartRule::kTogether ? 0 : kFirstStep) {
     now_.run = step_ * kPeriod;
+    // A controller requests no ticks, so none is ever released to it.
+    now_.has_begun = rules.start != StartRule::kTogether;
   }
 
   [[nodiscard]] const HlcMachine& machine() const { return machine_; }

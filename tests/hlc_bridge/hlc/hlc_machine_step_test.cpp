@@ -207,6 +207,23 @@ TEST_F(HlcMachineStep, InRealTimeOnlyTheNewestListIsAnsweredInLogicalTimeEveryOn
   }
 }
 
+TEST_F(HlcMachineStep, InRealTimeAListOfTheFarFutureIsDroppedAndTheNextIsAnswered) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  start(one);
+  static_cast<void>(one.take<machine::LogLine>());
+  for (const std::uint64_t steps : {std::uint64_t{10}, std::uint64_t{1'000'000}}) {
+    one.feed(list_of(one.step() + steps, standing()));
+  }
+  one.advance_until_idle();
+  EXPECT_THAT(one.take<ReportRecord>(), IsEmpty());
+  const auto lines = one.take<machine::LogLine>();
+  ASSERT_THAT(lines, SizeIs(1));
+  EXPECT_THAT(lines[0].text, testing::HasSubstr("state list of middleware_1 dropped"));
+  one.next_list(standing());
+  EXPECT_THAT(one.take<ReportRecord>(), SizeIs(1));
+}
+
 AutomatonRequest slow(std::uint64_t id, std::uint8_t vehicle = 1) {
   return {.vehicle = {vehicle}, .id = id, .subgraph = {.labels = {}, .max_speed_mps = 0.6}};
 }
