@@ -2,9 +2,14 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 
 #include <fastdds/rtps/builtin/data/ParticipantProxyData.h>
@@ -31,27 +36,101 @@ namespace eprosima::fastrtps::rtps {
 namespace {
 
 template <class Function>
-Function in_library(const char* symbol) {
-  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, symbol));
+Function in_library(const std::string& symbol) {
+  void* address = dlsym(RTLD_NEXT, symbol.c_str());
+  if (address == nullptr)
+    throw std::runtime_error("Fast DDS " FASTRTPS_VERSION_STR ": the library has no function " +
+                             symbol);
+  return reinterpret_cast<Function>(address);
+}
+
+/// The library's own functions behind those that are replaced.
+struct LibraryFunctions {
+  void (*clear)(ParticipantProxyData*) =
+      in_library<decltype(clear)>("_ZN8eprosima8fastrtps4rtps20ParticipantProxyData5clearEv");
+  SequenceNumber_t (*available_changes_max)(const WriterProxy*) =
+      in_library<decltype(available_changes_max)>(
+          "_ZNK8eprosima8fastrtps4rtps11WriterProxy21available_changes_maxEv");
+  bool (*heartbeat)(StatefulReader*, const GUID_t&, std::uint32_t, const SequenceNumber_t&,
+                    const SequenceNumber_t&, bool, bool) =
+      in_library<decltype(heartbeat)>(
+          "_ZN8eprosima8fastrtps4rtps14StatefulReader19processHeartbeatMsgERKNS1_6GUID_tEjRKNS1_16"
+          "SequenceNumber_tES8_bb");
+  bool (*gap)(StatefulReader*, const GUID_t&, const SequenceNumber_t&, const SequenceNumberSet_t&) =
+      in_library<decltype(gap)>(
+          "_ZN8eprosima8fastrtps4rtps14StatefulReader13processGapMsgERKNS1_6GUID_tERKNS1_16Sequence"
+          "Number_tERKNS0_11BitmapRangeIS6_NS1_18SequenceNumberDiffELj256EEE");
+  bool (*data)(StatefulReader*, CacheChange_t*) = in_library<decltype(data)>(
+      "_ZN8eprosima8fastrtps4rtps14StatefulReader14processDataMsgEPNS1_13CacheChange_tE");
+  bool (*fragment)(StatefulReader*, CacheChange_t*, std::uint32_t, std::uint32_t, std::uint16_t) =
+      in_library<decltype(fragment)>(
+          "_ZN8eprosima8fastrtps4rtps14StatefulReader18processDataFragMsgEPNS1_13CacheChange_"
+          "tEjjt");
+};
+
+const LibraryFunctions& library() {
+  static const LibraryFunctions functions;
+  return functions;
 }
 
 // For each message that a heartbeat or gap declares gone, the library takes a step of a loop, with
 // the reader locked: after one forged datagram with the number 2^62 the process would receive
-// nothing more, at full load of a processor. So many take it some seconds. Limit: a reader does not
-// join a reliable writer that has published more than that, 93 hours at 50 messages a second.
-constexpr std::int64_t kMostMissing = std::int64_t{1} << 24U;
+// nothing more, at full load of a processor. So many are a moment (README.md). 20 minutes at 50
+// messages a second; a writer that stays away that long is lost, and matched again.
+constexpr std::int64_t kMostMissing = std::int64_t{1} << 16U;
+// While nothing was received of a writer: what it published before this reader joined. Once per
+// writer and reader, as the number of the last message then rises. Limit: a reader does not join a
+// reliable writer that has published more than that, 93 hours at 50 messages a second.
+constexpr std::int64_t kMostBeforeJoining = std::int64_t{1} << 24U;
 
-bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNumber_t& number) {
+std::int64_t in_64_bits(const SequenceNumber_t& number) {
+  return static_cast<std::int64_t>(number.to64long());
+}
+
+std::int64_t most_missing(std::int64_t last) {
+  return last > 0 ? kMostMissing : kMostBeforeJoining;
+}
+
+/// Up to this one each message of the writer was received or is gone; none: the reader does not
+/// know the writer, and the library ignores it.
+std::optional<std::int64_t> last_received(StatefulReader& reader, const GUID_t& writer) {
   static_assert(std::is_trivially_copyable_v<SequenceNumber_t>);
-  static const auto kAvailableChangesMax = in_library<SequenceNumber_t (*)(const WriterProxy*)>(
-      "_ZNK8eprosima8fastrtps4rtps11WriterProxy21available_changes_maxEv");
   const std::lock_guard lock(reader.getMutex());
   WriterProxy* proxy = nullptr;
-  if (!reader.matched_writer_lookup(writer, &proxy)) return true;  // ignored by the library
-  const auto in_64_bits = [](const SequenceNumber_t& one) {
-    return static_cast<std::int64_t>(one.to64long());
-  };
-  return in_64_bits(number) <= in_64_bits(kAvailableChangesMax(proxy)) + kMostMissing;
+  if (!reader.matched_writer_lookup(writer, &proxy)) return std::nullopt;
+  return in_64_bits(library().available_changes_max(proxy));
+}
+
+/// Once per process: whoever forges datagrams would fill the log.
+void log_dropped(const GUID_t& writer, std::int64_t number, std::int64_t last) {
+  static std::atomic_flag is_logged;
+  if (is_logged.test_and_set()) return;
+  logError(RTPS_READER, "Dropped what declares message "
+                            << number << " of writer " << writer << ": the last one received is "
+                            << last << ". Further ones are dropped without a line.");
+}
+
+bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNumber_t& number) {
+  const auto last = last_received(reader, writer);
+  if (!last || in_64_bits(number) <= *last + most_missing(*last)) return true;
+  log_dropped(writer, in_64_bits(number), *last);
+  return false;
+}
+
+// The library's loop begins at the begin of the gap, even if that is long past. It stores each
+// number of a gap that is not the next one to come, so that only a gap that continues what was
+// received may be as long as the past of a writer.
+bool is_plausible_gap(StatefulReader& reader, const GUID_t& writer, std::int64_t begin,
+                      std::int64_t end) {
+  const auto last = last_received(reader, writer);
+  if (!last) return true;
+  const std::int64_t most = begin <= *last + 1 ? most_missing(*last) : kMostMissing;
+  const bool is_short =
+      end <= begin || static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(begin) <=
+                          static_cast<std::uint64_t>(most);
+  if (is_short && std::max(begin, end) <= *last + most) return true;
+  log_dropped(writer, std::max(begin, end), *last);
+  return false;
 }
 
 }  // namespace
@@ -61,9 +140,7 @@ bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNu
 // removal holds: an assertion, with which Debian builds the library, then ends the process without
 // need.
 void ParticipantProxyData::clear() {
-  static const auto kLibraryClear = in_library<void (*)(ParticipantProxyData*)>(
-      "_ZN8eprosima8fastrtps4rtps20ParticipantProxyData5clearEv");
-  kLibraryClear(this);
+  library().clear(this);
   should_check_lease_duration = false;
 }
 
@@ -79,28 +156,32 @@ bool StatefulReader::processHeartbeatMsg(const GUID_t& writer, std::uint32_t cou
                                          const SequenceNumber_t& last, bool is_final,
                                          bool is_liveliness) {
   if (!is_plausible(*this, writer, first) || !is_plausible(*this, writer, last)) return false;
-  static const auto kLibraryFunction =
-      in_library<bool (*)(StatefulReader*, const GUID_t&, std::uint32_t, const SequenceNumber_t&,
-                          const SequenceNumber_t&, bool, bool)>(
-          "_ZN8eprosima8fastrtps4rtps14StatefulReader19processHeartbeatMsgERKNS1_6GUID_tEjRKNS1_16"
-          "SequenceNumber_tES8_bb");
-  return kLibraryFunction(this, writer, count, first, last, is_final, is_liveliness);
+  return library().heartbeat(this, writer, count, first, last, is_final, is_liveliness);
 }
 
 bool StatefulReader::processGapMsg(const GUID_t& writer, const SequenceNumber_t& start,
                                    const SequenceNumberSet_t& list) {
-  if (!is_plausible(*this, writer, start) || !is_plausible(*this, writer, list.base()))
-    return false;
-  static const auto kLibraryFunction = in_library<bool (*)(
-      StatefulReader*, const GUID_t&, const SequenceNumber_t&, const SequenceNumberSet_t&)>(
-      "_ZN8eprosima8fastrtps4rtps14StatefulReader13processGapMsgERKNS1_6GUID_tERKNS1_16Sequence"
-      "Number_tERKNS0_11BitmapRangeIS6_NS1_18SequenceNumberDiffELj256EEE");
-  return kLibraryFunction(this, writer, start, list);
+  if (!is_plausible_gap(*this, writer, in_64_bits(start), in_64_bits(list.base()))) return false;
+  return library().gap(this, writer, start, list);
+}
+
+// After a message with the number 2^62 the library would count all before it as missing.
+bool StatefulReader::processDataMsg(CacheChange_t* change) {
+  if (!is_plausible(*this, change->writerGUID, change->sequenceNumber)) return false;
+  return library().data(this, change);
+}
+
+bool StatefulReader::processDataFragMsg(CacheChange_t* change, std::uint32_t sample_size,
+                                        std::uint32_t first_fragment, std::uint16_t fragments) {
+  if (!is_plausible(*this, change->writerGUID, change->sequenceNumber)) return false;
+  return library().fragment(this, change, sample_size, first_fragment, fragments);
 }
 
 }  // namespace eprosima::fastrtps::rtps
 
 namespace hlc::dds {
+
+void find_library_functions() { static_cast<void>(eprosima::fastrtps::rtps::library()); }
 
 void log_library_errors() {
   fdds::Log::ClearConsumers();

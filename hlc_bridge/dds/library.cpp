@@ -9,6 +9,7 @@ namespace hlc::dds {
 void set_up_library() {
   static std::once_flag once;
   std::call_once(once, [] {
+    find_library_functions();
     log_library_errors();
     turn_off_delivery_within_process();
     make_type_factories();

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <optional>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "hlc_bridge/dds/writer.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
@@ -38,15 +40,52 @@ struct Peer {
            answers.reader().wait_for_matched({"peer"}, soon());
   }
 
+  [[nodiscard]] bool write(const Outcome& outcome) {
+    ++num_outcomes;
+    return outcomes.write(outcome);
+  }
+
   Participant participant;
   Writer<Outcome> outcomes{participant, topics::outcome()};
   Writer<Traffic> traffic{participant, topics::traffic()};
   Mailbox<Outcome> answers{participant, topics::outcome()};
+  std::uint64_t num_outcomes{};  ///< written, and so the sequence number of the last
 };
+
+/// A reliable writer, as datagrams name it.
+struct Address {
+  Bytes header;  ///< of a datagram of its participant
+  Bytes writer;  ///< its entity id
+  int port{};    ///< to which the process wants its messages
+};
+
+std::uint64_t number_at(const Bytes& datagram, std::size_t place) {
+  std::array<std::uint32_t, 2> words{};  // the higher one first
+  std::memcpy(words.data(), &datagram[place], sizeof words);
+  return (std::uint64_t{words[0]} << 32U) + words[1];
+}
+
+/// Of the writer of which the datagram has a heartbeat that announces message `number` or a later
+/// one. Not of the library's own writers, for discovery.
+std::optional<Address> address_in(const Datagram& datagram, std::uint64_t number) {
+  const Bytes& bytes = datagram.bytes;
+  for (const std::size_t at : submessages(bytes)) {
+    if (bytes[at] != 0x07 || at + 32 > bytes.size()) continue;
+    const auto writer = bytes.begin() + static_cast<long>(at) + 8;
+    const bool is_of_library = (writer[3] & 0xc0U) != 0;
+    if (!is_of_library && number_at(bytes, at + 20) >= number)
+      return Address{.header = Bytes(bytes.begin(), bytes.begin() + kHeaderBytes),
+                     .writer = Bytes(writer, writer + 4),
+                     .port = ntohs(datagram.to.sin_port)};
+  }
+  return std::nullopt;
+}
 
 /// A process on the domain, datagrams for it, and a participant to which it answers.
 class Datagrams : public testing::Test {
  protected:
+  static constexpr std::uint64_t kSteps = 5;
+
   Datagrams() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {}
   ~Datagrams() override { ::close(socket_); }
 
@@ -57,9 +96,9 @@ class Datagrams : public testing::Test {
       source->emplace("source", domain_.first());
       ASSERT_TRUE((*source)->is_matched());
       std::mt19937_64 random(1);
-      for (std::uint64_t step = 0; step < 5; ++step) {
+      for (std::uint64_t step = 0; step < kSteps; ++step) {
         ASSERT_TRUE((*source)->traffic.write(sample<Traffic>(random)));
-        ASSERT_TRUE((*source)->outcomes.write({.vehicle = {2}, .step = {step}}));
+        ASSERT_TRUE((*source)->write({.vehicle = {2}, .step = {step}}));
       }
       ASSERT_TRUE(answers_to(**source));
       former_source_.reset();
@@ -73,6 +112,20 @@ class Datagrams : public testing::Test {
       if (!is_for_all && port % 2 == 0) ports_ = {port, port + 1};
     }
     ASSERT_NE(ports_.front(), 0);
+    ASSERT_TRUE(test::eventually(std::chrono::seconds{60}, [&] {
+      find_writer(sent);
+      return writer_.has_value() || !answers_to(*source_);
+    }));
+    ASSERT_TRUE(writer_) << end_of_process();
+  }
+
+  /// The source's writer of outcomes: it has written more than the one of traffic. No heartbeat of
+  /// it may have been necessary so far.
+  void find_writer(const SentDatagrams& sent) {
+    const Bytes& last = recorded_.back();
+    for (const Datagram& datagram : sent.so_far())
+      if (std::equal(last.begin(), last.begin() + kHeaderBytes, datagram.bytes.begin()))
+        if (const auto found = address_in(datagram, kSteps + 1)) writer_ = found;
   }
 
   /// To the process alone.
@@ -100,7 +153,7 @@ class Datagrams : public testing::Test {
                             [&] {
                               if (is_answered() || peer_.wait_for(std::chrono::milliseconds{0}))
                                 return true;
-                              EXPECT_TRUE(judge.outcomes.write(question));
+                              EXPECT_TRUE(judge.write(question));
                               return false;
                             }) &&
            is_answered();
@@ -115,10 +168,11 @@ class Datagrams : public testing::Test {
 
   test::DomainReservation domain_;
   test::TemporaryFolder folder_;
-  test::ChildProcess peer_{{HLC_TEST_PEER, "peer", std::to_string(domain_.first())},
+  test::ChildProcess peer_{{HLC_TEST_PEER, "peer", std::to_string(domain_.first()), "180"},
                            folder_.path() / "log"};
   std::vector<Bytes> recorded_;
   std::array<int, 2> ports_{};
+  std::optional<Address> writer_;  ///< the source's
   std::optional<Peer> former_source_;
   std::optional<Peer> source_;
 
@@ -129,73 +183,213 @@ class Datagrams : public testing::Test {
 
 struct Forged {
   std::string name;
-  Bytes submessages;
+  /// Submessages of the datagrams, in the name of the entity id `writer`, whose next message has
+  /// the number `next`.
+  std::vector<Bytes> (*datagrams)(const Bytes& writer, std::uint64_t next);
+  bool is_dropped{true};  ///< by us, as the process's log then shows
 };
 void PrintTo(const Forged& one, std::ostream* out) { *out << one.name; }
+
+constexpr std::uint64_t kLarge = std::uint64_t{1} << 62U;
+constexpr std::uint64_t kWithinBounds = (std::uint64_t{1} << 16U) - 300;
+
+Bytes with_header(const Bytes& header, const Bytes& submessages) {
+  Bytes datagram = header;
+  datagram.insert(datagram.end(), submessages.begin(), submessages.end());
+  return datagram;
+}
 
 class ForgedDatagrams : public Datagrams, public testing::WithParamInterface<Forged> {};
 
 // 84 bytes ended every process on the domain, or 52 in the name of a writer stopped it from
 // receiving at all.
 TEST_P(ForgedDatagrams, DoNotEndTheProcessNorStopItFromReceiving) {
-  const Bytes& of_source = recorded_.back();
-  Bytes datagram(of_source.begin(), of_source.begin() + kHeaderBytes);
-  const Bytes& submessages = GetParam().submessages;
-  datagram.insert(datagram.end(), submessages.begin(), submessages.end());
-  for (const int port : ports_) send(datagram, port);
+  for (const Bytes& submessages :
+       GetParam().datagrams(writer_->writer, source_->num_outcomes + 1)) {
+    const Bytes datagram = with_header(writer_->header, submessages);
+    for (const int port : ports_) send(datagram, port);
+    if (ports_.back() != writer_->port) send(datagram, writer_->port);
+  }
   Peer judge{"judge", domain_.first()};
   ASSERT_TRUE(judge.is_matched());
   EXPECT_TRUE(answers_to(judge)) << end_of_process();
+  const auto is_logged = [&] { return end_of_process().find("Dropped what") != std::string::npos; };
+  if (GetParam().is_dropped) {
+    EXPECT_TRUE(test::eventually(std::chrono::seconds{60}, is_logged)) << end_of_process();
+  } else {
+    EXPECT_FALSE(is_logged()) << end_of_process();
+  }
 }
 
-Bytes bytes_after_statistics() {
+void append(Bytes& bytes, std::uint64_t number, std::size_t words) {
+  if (words == 2) append(bytes, number >> 32U, 1);
+  for (std::size_t i = 0; i < 4; ++i) bytes.push_back(static_cast<unsigned char>(number >> 8 * i));
+}
+
+/// A heartbeat (0x07) or gap (0x08) for all readers: messages `begin` to `end` are there, or all
+/// from `begin` before `end` are gone.
+Bytes heartbeat_or_gap(unsigned char kind, const Bytes& writer, std::uint64_t begin,
+                       std::uint64_t end, unsigned char count = 0) {
+  Bytes bytes{kind, 1, 28, 0, 0, 0, 0, 0};
+  bytes.insert(bytes.end(), writer.begin(), writer.end());
+  append(bytes, begin, 2);
+  append(bytes, end, 2);
+  // A heartbeat's count, larger than those before; the bits that follow in a gap: none.
+  bytes.insert(bytes.end(), {0, 0, 0, count});
+  return bytes;
+}
+
+/// DATA (0x15), or the only fragment of one (0x16), for all readers: nothing a reader could read.
+Bytes data(unsigned char kind, const Bytes& writer, std::uint64_t number) {
+  const bool is_fragment = kind == 0x16;
+  const auto flags = static_cast<unsigned char>(is_fragment ? 1 : 5);
+  const auto size = static_cast<unsigned char>(is_fragment ? 40 : 28);
+  Bytes bytes{kind, flags, size, 0, 0, 0, static_cast<unsigned char>(is_fragment ? 28 : 16), 0};
+  bytes.resize(8);
+  bytes.insert(bytes.end(), {0, 0, 0, 0});
+  bytes.insert(bytes.end(), writer.begin(), writer.end());
+  append(bytes, number, 2);
+  if (is_fragment) {
+    append(bytes, 1, 1);                      // the first fragment
+    bytes.insert(bytes.end(), {1, 0, 8, 0});  // one, of at most 8 bytes
+    append(bytes, 8, 1);                      // bytes of the message
+  }
+  bytes.insert(bytes.end(), {0, 1, 0, 0, 0, 0, 0, 0});
+  return bytes;
+}
+
+/// A hundred heartbeats or gaps, each up to `step` more messages than the one before. Gaps from
+/// message `begin`, or, if that is 0, each from the end of the one before.
+std::vector<Bytes> hundred(unsigned char kind, const Bytes& writer, std::uint64_t next,
+                           std::uint64_t step, std::uint64_t begin = 0) {
+  std::vector<Bytes> all;
+  for (unsigned char i = 1; i <= 100; ++i) {
+    const std::uint64_t end = next + i * step;
+    const std::uint64_t begin_of_gap = begin == 0 ? end - step : begin;
+    all.push_back(kind == 0x08 ? heartbeat_or_gap(kind, writer, begin_of_gap, end)
+                               : heartbeat_or_gap(kind, writer, end, end, i));
+  }
+  return all;
+}
+
+std::vector<Bytes> bytes_after_statistics(const Bytes& /*writer*/, std::uint64_t /*next*/) {
   Bytes bytes = statistics_submessage();
   bytes.resize(bytes.size() + 4);
-  return bytes;
+  return {bytes};
 }
 
-/// A heartbeat (0x07) or gap (0x08) for all readers, from the source's first writer, whose messages
-/// from number `begin` to 2^62 are announced or gone.
-Bytes up_to_large_number(unsigned char kind, const Bytes& begin, unsigned char count) {
-  Bytes bytes{kind, 1, 28, 0, 0, 0, 0, 0, 0, 0, 1, 2};
-  bytes.insert(bytes.end(), begin.begin(), begin.end());
-  bytes.insert(bytes.end(), {0, 0, 0, 0x40, 0, 0, 0, 0});
-  bytes.insert(bytes.end(), {0, count, 0, 0});
-  return bytes;
-}
-
+using Number = std::uint64_t;
 INSTANTIATE_TEST_SUITE_P(
     Datagrams, ForgedDatagrams,
     testing::Values(
-        Forged{"BytesAfterStatistics", bytes_after_statistics()},
-        Forged{"HeartbeatOfALargeNumber", up_to_large_number(0x07, {0, 0, 0, 0x40, 0, 0, 0, 0}, 9)},
-        Forged{"GapUpToALargeNumber", up_to_large_number(0x08, {0, 0, 0, 0, 1, 0, 0, 0}, 0)}),
+        Forged{"BytesAfterStatistics", bytes_after_statistics, false},
+        Forged{"HeartbeatOfALargeNumber",
+               [](const Bytes& writer, Number /*next*/) {
+                 return std::vector<Bytes>{heartbeat_or_gap(0x07, writer, kLarge, kLarge, 9)};
+               }},
+        Forged{"GapUpToALargeNumber",
+               [](const Bytes& writer, Number /*next*/) {
+                 return std::vector<Bytes>{heartbeat_or_gap(0x08, writer, 1, kLarge)};
+               }},
+        Forged{
+            "DataOfALargeNumber",
+            [](const Bytes& writer, Number /*next*/) {
+              return std::vector<Bytes>{data(0x15, writer, kLarge), data(0x15, writer, kLarge + 5)};
+            }},
+        Forged{
+            "FragmentOfALargeNumber",
+            [](const Bytes& writer, Number /*next*/) {
+              return std::vector<Bytes>{data(0x16, writer, kLarge), data(0x16, writer, kLarge + 5)};
+            }},
+        Forged{"HundredHeartbeatsEachFarAboveTheLast",
+               [](const Bytes& writer, Number next) {
+                 return hundred(0x07, writer, next, (Number{1} << 24U) - 300);
+               }},
+        Forged{"HundredGapsEachFarAboveTheLast",
+               [](const Bytes& writer, Number next) {
+                 return hundred(0x08, writer, next, (Number{1} << 24U) - 300, 1);
+               }},
+        Forged{"HundredHeartbeatsWithinTheBounds",
+               [](const Bytes& writer, Number next) {
+                 return hundred(0x07, writer, next, kWithinBounds);
+               },
+               false},
+        Forged{"HundredGapsFromTheFirstMessageWithinTheBoundOfEach",
+               [](const Bytes& writer, Number next) {
+                 return hundred(0x08, writer, next, kWithinBounds, 1);
+               }},
+        Forged{"HundredGapsWithinTheBounds",
+               [](const Bytes& writer, Number next) {
+                 return hundred(0x08, writer, next, kWithinBounds);
+               },
+               false}),
     [](const auto& one) { return one.param.name; });
 
+// Otherwise the process might ignore those above for their addresses.
+TEST_F(Datagrams, InTheNameOfAWriterReachItsReader) {
+  const std::uint64_t next = source_->num_outcomes + 1;
+  const Outcome skipped{.vehicle = {3}, .step = {next}};
+  send(with_header(writer_->header, heartbeat_or_gap(0x08, writer_->writer, next, next + 1)),
+       writer_->port);
+  ASSERT_TRUE(source_->write(skipped));
+  ASSERT_TRUE(answers_to(*source_)) << end_of_process();
+  // Reliable in both directions: the answer would have come first.
+  EXPECT_FALSE(std::ranges::any_of(source_->answers.now(), [&](const Outcome& answer) {
+    return answer.vehicle == skipped.vehicle && answer.step == skipped.step;
+  }));
+}
+
 // A changed message in the name of a writer may take the place of that writer's, so that the
-// process no longer answers; but it runs, and ends as it should.
-TEST_F(Datagrams, ThatAreMutatedDoNotEndTheProcess) {
-  constexpr std::size_t kBatch = 20;
-  const std::uint64_t batches = test::num_costly_seeds(200);
-  Peer judge{"judge", domain_.first()};
-  ASSERT_TRUE(judge.is_matched());
-  std::size_t next = 0;
-  std::string sent;
-  bool is_answering = true;
-  for (std::uint64_t seed = 0; seed < batches && is_answering; ++seed) {
+// process no longer answers it; but it answers another, runs, and ends as it should.
+class MutatedDatagrams : public Datagrams {
+ protected:
+  static constexpr std::size_t kBatch = 20;
+
+  /// What was sent, for a failure.
+  std::string send_batch(std::uint64_t seed) {
     std::mt19937_64 random(seed);
-    sent = fmt::format("seed {}", seed);
-    for (std::size_t i = 0; i < kBatch; ++i, ++next) {
-      const Bytes datagram = mutated(recorded_[next % recorded_.size()], recorded_, random);
+    std::string sent = fmt::format("seed {}", seed);
+    for (std::size_t i = 0; i < kBatch; ++i, ++next_) {
+      const Bytes datagram = mutated(recorded_[next_ % recorded_.size()], recorded_, random);
       const int port = ports_[random() % 2];
       send(datagram, port);
       sent += fmt::format("\n{} {:02x}", port, fmt::join(datagram, ""));
     }
-    is_answering = answers_to(judge, std::chrono::seconds{5});
+    return sent;
+  }
+
+  /// The process has dealt with what was sent if it answers afterwards, this participant or a fresh
+  /// one.
+  [[nodiscard]] bool answers() {
+    constexpr std::chrono::seconds kTime{5};
+    if (judge_ && answers_to(*judge_, kTime)) return true;
+    judge_.emplace("judge", domain_.first());
+    if (answers_to(*judge_, kTime)) return true;
+    judge_.reset();
+    return false;
+  }
+
+ private:
+  std::optional<Peer> judge_;
+  std::size_t next_{};
+};
+
+TEST_F(MutatedDatagrams, DoNotEndTheProcess) {
+  const std::uint64_t batches = test::num_costly_seeds(200);
+  std::uint64_t num_sent = 0;
+  std::uint64_t num_unanswered = 0;
+  for (std::uint64_t seed = 0; seed < batches; ++seed, ++num_sent) {
+    const std::string sent = send_batch(seed);
+    if (!answers()) {
+      ++num_unanswered;
+      fmt::print("no answer, not even to a fresh peer, after seed {}\n", seed);
+    }
     ASSERT_FALSE(peer_.wait_for(std::chrono::milliseconds{0})) << end_of_process() << sent;
   }
+  EXPECT_EQ(num_sent, batches);
+  RecordProperty("unanswered", std::to_string(num_unanswered));
   peer_.send(SIGTERM);
-  EXPECT_EQ(peer_.wait_for(std::chrono::seconds{60}), 0) << end_of_process() << sent;
+  EXPECT_EQ(peer_.wait_for(std::chrono::seconds{60}), 0) << end_of_process();
 }
 
 }  // namespace

@@ -35,9 +35,10 @@ struct Replaced {
 };
 void PrintTo(const Replaced& one, std::ostream* out) { *out << one.name; }
 
+// By name; that the library then calls them, datagram_test shows.
 class ReplacedFunctions : public testing::TestWithParam<Replaced> {};
 
-TEST_P(ReplacedFunctions, AreCalledByTheLibrary) {
+TEST_P(ReplacedFunctions, AreFoundBeforeThoseOfTheLibrary) {
   static const int here = 0;
   EXPECT_EQ(file_of(dlsym(RTLD_DEFAULT, GetParam().symbol)), file_of(&here));
   EXPECT_NE(dlsym(RTLD_NEXT, GetParam().symbol), nullptr) << "the library no longer has it";
@@ -53,7 +54,12 @@ constexpr std::array kReplaced{
              "_16SequenceNumber_tES8_bb"},
     Replaced{"Gap",
              "_ZN8eprosima8fastrtps4rtps14StatefulReader13processGapMsgERKNS1_6GUID_tERKNS1_16"
-             "SequenceNumber_tERKNS0_11BitmapRangeIS6_NS1_18SequenceNumberDiffELj256EEE"}};
+             "SequenceNumber_tERKNS0_11BitmapRangeIS6_NS1_18SequenceNumberDiffELj256EEE"},
+    Replaced{"Data",
+             "_ZN8eprosima8fastrtps4rtps14StatefulReader14processDataMsgEPNS1_13CacheChange_tE"},
+    Replaced{
+        "Fragment",
+        "_ZN8eprosima8fastrtps4rtps14StatefulReader18processDataFragMsgEPNS1_13CacheChange_tEjjt"}};
 
 INSTANTIATE_TEST_SUITE_P(FastDds, ReplacedFunctions, testing::ValuesIn(kReplaced),
                          [](const auto& one) { return std::string(one.param.name); });

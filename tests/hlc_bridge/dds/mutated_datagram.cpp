@@ -19,19 +19,6 @@ auto& any_of(Container& container, std::mt19937_64& random) {
   return container[random() % container.size()];
 }
 
-/// Places of the submessages' headers.
-std::vector<std::size_t> submessages(const Bytes& datagram) {
-  std::vector<std::size_t> places;
-  for (std::size_t at = kHeaderBytes; at + 4 <= datagram.size();) {
-    places.push_back(at);
-    const bool is_little_endian = (datagram[at + 1] & 1U) != 0;
-    const std::size_t low = datagram[at + (is_little_endian ? 2 : 3)];
-    const std::size_t high = datagram[at + (is_little_endian ? 3 : 2)];
-    at += 4 + low + 256 * high;
-  }
-  return places;
-}
-
 void change_byte(Bytes& datagram, std::mt19937_64& random) {
   any_of(datagram, random) = static_cast<unsigned char>(random());
 }
@@ -80,6 +67,18 @@ void insert(Bytes& datagram, const Bytes& pieces, std::mt19937_64& random) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> submessages(const Bytes& datagram) {
+  std::vector<std::size_t> places;
+  for (std::size_t at = kHeaderBytes; at + 4 <= datagram.size();) {
+    places.push_back(at);
+    const bool is_little_endian = (datagram[at + 1] & 1U) != 0;
+    const std::size_t low = datagram[at + (is_little_endian ? 2 : 3)];
+    const std::size_t high = datagram[at + (is_little_endian ? 3 : 2)];
+    at += 4 + low + 256 * high;
+  }
+  return places;
+}
 
 Bytes statistics_submessage() {
   Bytes bytes(4 + 56, 0);

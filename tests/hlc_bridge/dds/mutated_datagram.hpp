@@ -10,6 +10,9 @@ using Bytes = std::vector<unsigned char>;
 
 inline constexpr std::size_t kHeaderBytes = 20;  ///< of an RTPS datagram
 
+/// Places of the submessages' headers.
+[[nodiscard]] std::vector<std::size_t> submessages(const Bytes& datagram);
+
 /// A statistics submessage, as the library appends one to each datagram if a program asks for it.
 [[nodiscard]] Bytes statistics_submessage();
 

@@ -1,5 +1,6 @@
-// A process that is there: peer <name> <domain>. Returns every outcome that it receives. Ends
-// cleanly on SIGTERM.
+// A process that is there: peer <name> <domain> [<minutes>]. Returns every outcome that it
+// receives. Ends cleanly on SIGTERM, with 1 after the minutes, 5 if not given: nothing else ends it
+// if its test was killed.
 
 #include <cstdlib>
 #include <utility>
@@ -12,7 +13,7 @@
 #include "hlc_bridge/time/stop_signals.hpp"
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
+  if (argc != 3 && argc != 4) {
     return 2;
   }
   hlc::time::StopSignals stop_signals;
@@ -32,7 +33,8 @@ int main(int argc, char** argv) {
   const hlc::dds::Reader<hlc::coordination::Traffic> traffic{
       participant, hlc::dds::topics::traffic(), [](const auto& /*message*/) {}};
   stop_signals.on_stop([&](int) { signal.post([&] { stopped = true; }); });
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{5};
+  const auto deadline =
+      std::chrono::steady_clock::now() + std::chrono::minutes{argc == 4 ? std::atoi(argv[3]) : 5};
   while (signal.wait_until(deadline, [&] { return stopped || !received.empty(); })) {
     if (signal.locked([&] { return stopped; })) return 0;
     for (const auto& outcome : signal.locked([&] { return std::exchange(received, {}); })) {
