@@ -56,7 +56,6 @@ struct Peer {
 struct Address {
   Bytes header;  ///< of a datagram of its participant
   Bytes writer;  ///< its entity id
-  int port{};    ///< to which the process wants its messages
 };
 
 std::uint64_t number_at(const Bytes& datagram, std::size_t place) {
@@ -67,16 +66,14 @@ std::uint64_t number_at(const Bytes& datagram, std::size_t place) {
 
 /// Of the writer of which the datagram has a heartbeat that announces message `number` or a later
 /// one. Not of the library's own writers, for discovery.
-std::optional<Address> address_in(const Datagram& datagram, std::uint64_t number) {
-  const Bytes& bytes = datagram.bytes;
+std::optional<Address> address_in(const Bytes& bytes, std::uint64_t number) {
   for (const std::size_t at : submessages(bytes)) {
     if (bytes[at] != 0x07 || at + 32 > bytes.size()) continue;
     const auto writer = bytes.begin() + static_cast<long>(at) + 8;
     const bool is_of_library = (writer[3] & 0xc0U) != 0;
     if (!is_of_library && number_at(bytes, at + 20) >= number)
       return Address{.header = Bytes(bytes.begin(), bytes.begin() + kHeaderBytes),
-                     .writer = Bytes(writer, writer + 4),
-                     .port = ntohs(datagram.to.sin_port)};
+                     .writer = Bytes(writer, writer + 4)};
   }
   return std::nullopt;
 }
@@ -119,13 +116,16 @@ class Datagrams : public testing::Test {
     ASSERT_TRUE(writer_) << end_of_process();
   }
 
-  /// The source's writer of outcomes: it has written more than the one of traffic. No heartbeat of
-  /// it may have been necessary so far.
+  /// The source's writer of outcomes, by a heartbeat to the process: it has written more than the
+  /// one of traffic. The source sends its messages to itself, too.
   void find_writer(const SentDatagrams& sent) {
     const Bytes& last = recorded_.back();
-    for (const Datagram& datagram : sent.so_far())
-      if (std::equal(last.begin(), last.begin() + kHeaderBytes, datagram.bytes.begin()))
-        if (const auto found = address_in(datagram, kSteps + 1)) writer_ = found;
+    for (const Datagram& datagram : sent.so_far()) {
+      const bool is_of_source =
+          std::equal(last.begin(), last.begin() + kHeaderBytes, datagram.bytes.begin());
+      if (!is_of_source || ntohs(datagram.to.sin_port) != ports_.back()) continue;
+      if (const auto found = address_in(datagram.bytes, kSteps + 1)) writer_ = found;
+    }
   }
 
   /// To the process alone.
@@ -157,6 +157,13 @@ class Datagrams : public testing::Test {
                               return false;
                             }) &&
            is_answered();
+  }
+
+  /// The process answered this outcome, as the source knows.
+  [[nodiscard]] bool was_answered(const Outcome& outcome) const {
+    return std::ranges::any_of(source_->answers.now(), [&](const Outcome& answer) {
+      return answer.vehicle == outcome.vehicle && answer.step == outcome.step;
+    });
   }
 
   /// How it ended, and what it printed.
@@ -208,7 +215,6 @@ TEST_P(ForgedDatagrams, DoNotEndTheProcessNorStopItFromReceiving) {
        GetParam().datagrams(writer_->writer, source_->num_outcomes + 1)) {
     const Bytes datagram = with_header(writer_->header, submessages);
     for (const int port : ports_) send(datagram, port);
-    if (ports_.back() != writer_->port) send(datagram, writer_->port);
   }
   Peer judge{"judge", domain_.first()};
   ASSERT_TRUE(judge.is_matched());
@@ -330,13 +336,38 @@ TEST_F(Datagrams, InTheNameOfAWriterReachItsReader) {
   const std::uint64_t next = source_->num_outcomes + 1;
   const Outcome skipped{.vehicle = {3}, .step = {next}};
   send(with_header(writer_->header, heartbeat_or_gap(0x08, writer_->writer, next, next + 1)),
-       writer_->port);
+       ports_.back());
   ASSERT_TRUE(source_->write(skipped));
   ASSERT_TRUE(answers_to(*source_)) << end_of_process();
   // Reliable in both directions: the answer would have come first.
-  EXPECT_FALSE(std::ranges::any_of(source_->answers.now(), [&](const Outcome& answer) {
-    return answer.vehicle == skipped.vehicle && answer.step == skipped.step;
-  }));
+  EXPECT_FALSE(was_answered(skipped));
+}
+
+// Before anything of a writer was received, it may have a long past: a reader that joins late skips
+// that.
+TEST_F(Datagrams, OfAWriterWithALongPastAreAccepted) {
+  constexpr std::uint64_t kPast = 1'000'000;
+  const auto is_other = [&](const Datagram& one) {
+    return !std::equal(writer_->header.begin(), writer_->header.end(), one.bytes.begin());
+  };
+  // The process may match a fresh writer only after the heartbeat: then the next one.
+  Outcome first{.vehicle = {4}, .step = {0}};
+  const auto is_first_skipped = [&] {
+    const SentDatagrams sent;
+    Peer fresh{"fresh", domain_.first()};
+    if (!fresh.is_matched()) return false;
+    const auto datagrams = sent.so_far();
+    const auto of_fresh = std::find_if(datagrams.rbegin(), datagrams.rend(), is_other);
+    if (of_fresh == datagrams.rend()) return false;
+    const Bytes header(of_fresh->bytes.begin(), of_fresh->bytes.begin() + kHeaderBytes);
+    // Every peer's writers have the same entity ids.
+    send(with_header(header, heartbeat_or_gap(0x07, writer_->writer, kPast, kPast, 9)),
+         ports_.back());
+    first.step = {first.step.value + 1};
+    return fresh.write(first) && answers_to(*source_) && !was_answered(first);
+  };
+  EXPECT_TRUE(test::eventually(std::chrono::seconds{60}, is_first_skipped)) << end_of_process();
+  EXPECT_EQ(end_of_process().find("Dropped what"), std::string::npos) << end_of_process();
 }
 
 // A changed message in the name of a writer may take the place of that writer's, so that the
