@@ -83,6 +83,10 @@ constexpr std::int64_t kMostMissing = std::int64_t{1} << 16U;
 // reliable writer that has published more than that, 93 hours at 50 messages a second.
 constexpr std::int64_t kMostBeforeJoining = std::int64_t{1} << 24U;
 
+// The library stores each number of a gap that is not the next one to come. A writer sends such
+// gaps only within its history.
+constexpr std::int64_t kLongestGapApart = std::int64_t{1} << 10U;
+
 std::int64_t in_64_bits(const SequenceNumber_t& number) {
   return static_cast<std::int64_t>(number.to64long());
 }
@@ -117,17 +121,16 @@ bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNu
   return false;
 }
 
-// The library's loop begins at the begin of the gap, even if that is long past. It stores each
-// number of a gap that is not the next one to come, so that only a gap that continues what was
-// received may be as long as the past of a writer.
+// The library's loop begins at the begin of the gap, even if that is long past.
 bool is_plausible_gap(StatefulReader& reader, const GUID_t& writer, std::int64_t begin,
                       std::int64_t end) {
   const auto last = last_received(reader, writer);
   if (!last) return true;
-  const std::int64_t most = begin <= *last + 1 ? most_missing(*last) : kMostMissing;
+  const std::int64_t most = most_missing(*last);
+  const std::int64_t longest = begin <= *last + 1 ? most : kLongestGapApart;
   const bool is_short =
       end <= begin || static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(begin) <=
-                          static_cast<std::uint64_t>(most);
+                          static_cast<std::uint64_t>(longest);
   if (is_short && std::max(begin, end) <= *last + most) return true;
   log_dropped(writer, std::max(begin, end), *last);
   return false;
