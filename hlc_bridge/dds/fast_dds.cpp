@@ -83,6 +83,9 @@ constexpr std::int64_t kMostMissing = std::int64_t{1} << 16U;
 // reliable writer that has published more than that, 93 hours at 50 messages a second.
 constexpr std::int64_t kMostBeforeJoining = std::int64_t{1} << 24U;
 
+// What is announced above the last one received takes no such loop, and a late joiner receives a
+// history in pieces: at most the reports of 10 000 steps about 30 vehicles (endpoint_qos.cpp).
+constexpr std::int64_t kMostAnnounced = std::int64_t{1} << 20U;
 // The library stores each number of a gap that is not the next one to come. A writer sends such
 // gaps only within its history.
 constexpr std::int64_t kLongestGapApart = std::int64_t{1} << 10U;
@@ -93,6 +96,10 @@ std::int64_t in_64_bits(const SequenceNumber_t& number) {
 
 std::int64_t most_missing(std::int64_t last) {
   return last > 0 ? kMostMissing : kMostBeforeJoining;
+}
+
+std::int64_t most_announced(std::int64_t last) {
+  return last > 0 ? kMostAnnounced : kMostBeforeJoining;
 }
 
 /// Up to this one each message of the writer was received or is gone; none: the reader does not
@@ -114,9 +121,11 @@ void log_dropped(const GUID_t& writer, std::int64_t number, std::int64_t last) {
                             << last << ". Further ones are dropped without a line.");
 }
 
-bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNumber_t& number) {
+/// @param most  above the last message received, given that one
+bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNumber_t& number,
+                  std::int64_t (*most)(std::int64_t last)) {
   const auto last = last_received(reader, writer);
-  if (!last || in_64_bits(number) <= *last + most_missing(*last)) return true;
+  if (!last || in_64_bits(number) <= *last + most(*last)) return true;
   log_dropped(writer, in_64_bits(number), *last);
   return false;
 }
@@ -126,12 +135,11 @@ bool is_plausible_gap(StatefulReader& reader, const GUID_t& writer, std::int64_t
                       std::int64_t end) {
   const auto last = last_received(reader, writer);
   if (!last) return true;
-  const std::int64_t most = most_missing(*last);
-  const std::int64_t longest = begin <= *last + 1 ? most : kLongestGapApart;
+  const std::int64_t longest = begin <= *last + 1 ? most_missing(*last) : kLongestGapApart;
   const bool is_short =
       end <= begin || static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(begin) <=
                           static_cast<std::uint64_t>(longest);
-  if (is_short && std::max(begin, end) <= *last + most) return true;
+  if (is_short && std::max(begin, end) <= *last + most_announced(*last)) return true;
   log_dropped(writer, std::max(begin, end), *last);
   return false;
 }
@@ -158,7 +166,9 @@ bool StatefulReader::processHeartbeatMsg(const GUID_t& writer, std::uint32_t cou
                                          const SequenceNumber_t& first,
                                          const SequenceNumber_t& last, bool is_final,
                                          bool is_liveliness) {
-  if (!is_plausible(*this, writer, first) || !is_plausible(*this, writer, last)) return false;
+  if (!is_plausible(*this, writer, first, most_missing) ||
+      !is_plausible(*this, writer, last, most_announced))
+    return false;
   return library().heartbeat(this, writer, count, first, last, is_final, is_liveliness);
 }
 
@@ -170,13 +180,15 @@ bool StatefulReader::processGapMsg(const GUID_t& writer, const SequenceNumber_t&
 
 // After a message with the number 2^62 the library would count all before it as missing.
 bool StatefulReader::processDataMsg(CacheChange_t* change) {
-  if (!is_plausible(*this, change->writerGUID, change->sequenceNumber)) return false;
+  if (!is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced))
+    return false;
   return library().data(this, change);
 }
 
 bool StatefulReader::processDataFragMsg(CacheChange_t* change, std::uint32_t sample_size,
                                         std::uint32_t first_fragment, std::uint16_t fragments) {
-  if (!is_plausible(*this, change->writerGUID, change->sequenceNumber)) return false;
+  if (!is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced))
+    return false;
   return library().fragment(this, change, sample_size, first_fragment, fragments);
 }
 
