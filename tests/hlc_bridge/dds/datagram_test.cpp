@@ -297,6 +297,12 @@ INSTANTIATE_TEST_SUITE_P(
                [](const Bytes& writer, Number /*next*/) {
                  return std::vector<Bytes>{heartbeat_or_gap(0x08, writer, 1, kLarge)};
                }},
+        // As a late joiner receives one that is not forged at all.
+        Forged{"HeartbeatOfALongHistory",
+               [](const Bytes& writer, Number next) {
+                 return std::vector<Bytes>{heartbeat_or_gap(0x07, writer, 1, next + 300'000, 9)};
+               },
+               false},
         Forged{
             "DataOfALargeNumber",
             [](const Bytes& writer, Number /*next*/) {
