@@ -48,7 +48,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --startup_timeout_s N   startup timeout (default 20)
   --no_build              use the existing programs
   --bin DIR               use the programs in DIR, build nothing
-Exit codes: 0 success, 1 setup or build failed, or messages or --dump-problems are incomplete, 2 invalid input, 3 startup timeout,
+Exit codes: 0 success, 1 setup or build failed, or a record or --dump-problems is incomplete, 2 invalid input, 3 startup timeout,
             4 a process died during the run, 5 a vehicle left its plan or touched another one,
             6 all steps driven, but a vehicle was stuck at the end: it had waited for others for 20 s, 130 interrupted
 TEXT
@@ -356,7 +356,7 @@ code=$?
 ((code <= 130)) || echo "lab_control died (signal $((code - 128)))" >&2
 
 # The others end after lab control's stop; the rest is terminated.
-((code == 0 || code == 4 || code > 130)) || kill -TERM "${children[@]}" 2>/dev/null
+((code <= 1 || code == 4 || code > 130)) || kill -TERM "${children[@]}" 2>/dev/null
 wait_until $((SECONDS + 12))
 kill -TERM "${children[@]}" 2>/dev/null # vehicle.sh kills processes that do not terminate
 for pid in "${children[@]}"; do
@@ -365,7 +365,7 @@ for pid in "${children[@]}"; do
   ((code != 0 || child == 0)) || code=$child
 done
 # The first failure is the cause: the others may be its consequence. Any failure has precedence over 1, a good
-# run with unwritten problems.
+# run with an incomplete record.
 if [[ -s $out/logs/failures ]]; then
   read -r code _ < <(grep -v '^1 ' "$out/logs/failures" || cat "$out/logs/failures")
 fi

@@ -54,7 +54,8 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str()
       ->check(CLI::IsMember({"stop", "continue"}));
   app.footer(
-      "Exit codes: 0 success, 1 success, but --messages is incomplete, 2 invalid input, 3 startup "
+      "Exit codes: 0 success, 1 success, but --out or --messages is incomplete, 2 invalid input, 3 "
+      "startup "
       "timeout, 4 a process died during the "
       "run "
       "(--on_death continue: and was not back at its end), 6 driven, but a vehicle was stuck at "

@@ -45,7 +45,8 @@ MessageRecording::OnPublished MessageRecording::open(const std::filesystem::path
 
 int MessageRecording::close(int exit_code) const {
   const bool is_complete = !recorder_ || recorder_->close();
-  return exit_code == kExitGood && !is_complete ? kExitNotWritten : exit_code;
+  if (!is_complete) spdlog::warn("{}: incomplete", recorder_->file().string());
+  return exit_code_with_outputs(exit_code, is_complete);
 }
 
 }  // namespace hlc::apps

@@ -1,13 +1,10 @@
 #include "hlc_bridge/mcap/message_recorder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace hlc::mcap {
@@ -16,36 +13,33 @@ namespace {
 /// More than a process publishes in kFlushInterval. Beyond it a message is dropped: the disk hangs.
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
-/// The first free name, and its descriptor.
-std::pair<std::filesystem::path, int> new_file(const std::filesystem::path& folder,
-                                               const std::string& process) {
+/// With the first free name.
+GrowingFile new_file(const MessageRecorder::Options& options) {
   std::error_code ignored;  // then the file cannot be created either
-  std::filesystem::create_directories(folder, ignored);
+  std::filesystem::create_directories(options.folder, ignored);
   for (int n = 1;; ++n) {
-    std::filesystem::path file =
-        folder / (n == 1 ? process + ".mcap" : fmt::format("{}_{}.mcap", process, n));
-    const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) return {std::move(file), descriptor};
-    if (errno != EEXIST) {
+    const std::string name = n == 1 ? options.process : fmt::format("{}_{}", options.process, n);
+    const std::filesystem::path file = options.folder / (name + ".mcap");
+    try {
+      return {file, GrowingFile::Opening::kNew, options.on_failure};
+    } catch (const std::system_error& error) {
+      if (error.code() == std::errc::file_exists) continue;
       throw std::invalid_argument(fmt::format("{}: {}, must be a file that can be created",
-                                              file.string(), std::strerror(errno)));
+                                              file.string(), error.code().message()));
     }
   }
 }
 
 }  // namespace
 
-MessageRecorder::MessageRecorder(Options options) : options_(std::move(options)) {
-  std::tie(file_, descriptor_) = new_file(options_.folder, options_.process);
+MessageRecorder::MessageRecorder(Options options)
+    : options_(std::move(options)), file_(new_file(options_)) {
   bytes_ = kMagic;
   append_header(bytes_);
   writer_ = std::thread([this] { write_until_closed(); });
 }
 
-MessageRecorder::~MessageRecorder() {
-  close();
-  ::close(descriptor_);
-}
+MessageRecorder::~MessageRecorder() { close(); }
 
 void MessageRecorder::record(const PublishedMessage& message) {
   const Nanoseconds wall = options_.wall_time();
@@ -94,25 +88,14 @@ void MessageRecorder::write_until_closed() {
     bytes.swap(bytes_);
     bytes_.reserve(bytes.size());
     lock.unlock();
-    const int error = write(bytes);
+    file_.write(bytes);
     lock.lock();
-    has_failed_ = has_failed_ || error != 0;
+    has_failed_ = has_failed_ || file_.has_failed();
     if (!has_failed_) continue;
     lock.unlock();
-    options_.on_failure(fmt::format("{}: messages are no longer recorded: {}", file_.string(),
-                                    error == 0 ? "the disk is too slow" : std::strerror(error)));
+    file_.fail("the disk is too slow");  // the only other reason
     return;
   }
-}
-
-int MessageRecorder::write(std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return errno;
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return 0;
 }
 
 bool MessageRecorder::close() {
@@ -123,7 +106,7 @@ bool MessageRecorder::close() {
   }
   changed_.notify_one();
   if (writer_.joinable()) writer_.join();
-  return !has_failed_;
+  return !file_.close().has_value();
 }
 
 }  // namespace hlc::mcap

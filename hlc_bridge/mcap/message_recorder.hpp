@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "hlc_bridge/mcap/records.hpp"
+#include "planner/common/growing_file.hpp"
 
 namespace hlc::mcap {
 
@@ -39,8 +40,8 @@ class MessageRecorder {
     /// IDL of a type and of all that it uses.
     std::function<std::string(const std::string& type)> definition_of;
     std::function<Nanoseconds()> wall_time;
-    /// Called once, on the writing thread, with a line for the log.
-    std::function<void(const std::string& line)> on_failure = [](const std::string&) {};
+    /// On the writing thread.
+    GrowingFile::OnFailure on_failure = [](const std::string&) {};
   };
 
   /// Makes a file of its own: <process>.mcap, or <process>_2.mcap for a process started again, ...
@@ -57,7 +58,7 @@ class MessageRecorder {
   /// could not be written.
   bool close();
 
-  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  [[nodiscard]] const std::filesystem::path& file() const { return file_.path(); }
 
  private:
   struct Topic {
@@ -67,12 +68,9 @@ class MessageRecorder {
 
   [[nodiscard]] Topic& topic_of(const PublishedMessage& message);
   void write_until_closed();
-  /// @return errno, 0: all is written
-  [[nodiscard]] int write(std::string_view bytes);
 
   Options options_;
-  std::filesystem::path file_;
-  int descriptor_{-1};
+  GrowingFile file_;  ///< of the writing thread
 
   std::mutex mutex_;  ///< guards the following ones
   std::condition_variable changed_;

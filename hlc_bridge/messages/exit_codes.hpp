@@ -17,4 +17,9 @@ inline constexpr int kExitInterrupted = 130;
   return exit_code == kExitGood || exit_code == kExitStuck;
 }
 
+/// Of a process whose outputs are complete, or not: a failure of the run has precedence.
+[[nodiscard]] constexpr int exit_code_with_outputs(int exit_code, bool are_complete) {
+  return exit_code == kExitGood && !are_complete ? kExitNotWritten : exit_code;
+}
+
 }  // namespace hlc

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
 #include "hlc_bridge/result/run_record.hpp"
@@ -31,7 +32,8 @@ dds::ParticipantOptions on_domain(const LabControlOptions& options, dds::DomainR
           .on_published = options.on_published};
 }
 
-std::optional<record::ReportFile> make_report_file(const std::filesystem::path& folder) {
+std::optional<record::ReportFile> make_report_file(const std::filesystem::path& folder,
+                                                   GrowingFile::OnFailure on_failure) {
   if (folder.empty()) {
     return std::nullopt;
   }
@@ -42,7 +44,7 @@ std::optional<record::ReportFile> make_report_file(const std::filesystem::path& 
     throw std::invalid_argument("--out = " + folder.string() +
                                 ", must be a folder that can be created and holds no reports.csv");
   }
-  return std::optional<record::ReportFile>{std::in_place, file};
+  return std::optional<record::ReportFile>{std::in_place, file, std::move(on_failure)};
 }
 
 }  // namespace
@@ -56,7 +58,8 @@ LabControlProcess::Writers::Writers(dds::Participant& lab, dds::Participant& con
 
 LabControlProcess::LabControlProcess(LabControlOptions options)
     : options_(std::move(options)),
-      reports_(make_report_file(options_.out)),
+      reports_(make_report_file(
+          options_.out, [this](const std::string& line) { perform(machine::warning(line)); })),
       progress_(stderr, options_.is_terminal),
       shell_(kLabControlName,
              lab_control::LabControlMachine(options_.make_run(options_.run),
@@ -75,6 +78,7 @@ LabControlProcess::LabControlProcess(LabControlOptions options)
       report_reader_(controllers_, dds::topics::report(),
                      [this](const ReportRecord& record) { shell_.post(record); }) {
   if (shell_.machine().run().awaits_states()) listen_to_vehicles();
+  record_facts();
 }
 
 /// Real time: a vehicle is present once a state has been received. While the run gathers, every
@@ -89,13 +93,23 @@ void LabControlProcess::listen_to_vehicles() {
 }
 
 int LabControlProcess::run() {
-  record_facts();
   const int exit_code = shell_.run(*this);
   progress_.end_line();
-  if (reports_) reports_->finish();
-  record_facts();
+  const bool are_complete = complete_records();
   log_result();
-  return exit_code;
+  return exit_code_with_outputs(exit_code, are_complete);
+}
+
+bool LabControlProcess::complete_records() {
+  const std::optional<std::string> incomplete = reports_ ? reports_->finish() : std::nullopt;
+  if (incomplete) perform(machine::warning(*incomplete));
+  try {
+    record_facts();
+  } catch (const std::runtime_error& error) {
+    perform(machine::warning(error.what()));
+    return false;
+  }
+  return !incomplete;
 }
 
 lab_control::LabControlPresence LabControlProcess::presence() const {

@@ -46,7 +46,8 @@ class LabControlProcess {
   /// @throws std::invalid_argument, std::runtime_error for options that cannot work
   explicit LabControlProcess(LabControlOptions options);
 
-  /// One run, from gathering to the end. The exit code (LabRunResult).
+  /// One run, from gathering to the end. The exit code (LabRunResult; kExitNotWritten after success
+  /// if a file of the run folder is incomplete).
   [[nodiscard]] int run();
 
   /// Ends the run soon, with the stop symbol. From any thread.
@@ -74,7 +75,10 @@ class LabControlProcess {
   void perform(const SystemTrigger& trigger) { writers_.trigger.write(trigger); }
   void perform(const lab_control::ProgressText& progress) { progress_.show(progress.text); }
   void perform(const machine::LogLine& line);
+  /// False: one of them is incomplete, which is logged.
+  [[nodiscard]] bool complete_records();
   void log_result();
+  /// @throws std::runtime_error naming the file
   void record_facts() const;
 
   LabControlOptions options_;

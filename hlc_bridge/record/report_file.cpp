@@ -224,24 +224,17 @@ std::string ids_to_text(const std::vector<VehicleId>& ids) {
   return fmt::format("{}", fmt::join(values, ";"));
 }
 
-ReportFile::ReportFile(std::filesystem::path file)
-    : file_{std::move(file)}, stream_{std::fopen(file_.c_str(), "w"), &std::fclose} {
-  if (!stream_ || std::fprintf(stream_.get(), "%s\n", kHeading.data()) < 0 ||
-      std::fflush(stream_.get()) != 0) {
-    throw std::runtime_error(file_.string() + ": cannot be written");
-  }
+ReportFile::ReportFile(std::filesystem::path file, GrowingFile::OnFailure on_failure)
+    : file_{std::move(file), GrowingFile::Opening::kEmptied, std::move(on_failure)} {
+  file_.begin(std::string{kHeading} + '\n');
 }
 
 void ReportFile::append(const ReportRecord& record) {
   records_.push_back(record);
-  const std::string text = line(record);
-  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) != text.size() ||
-      std::fflush(stream_.get()) != 0) {
-    throw std::runtime_error(file_.string() + ": cannot be written");
-  }
+  file_.write(line(record));
 }
 
-void ReportFile::finish() {
+std::optional<std::string> ReportFile::finish() {
   std::stable_sort(records_.begin(), records_.end(),
                    [](const ReportRecord& a, const ReportRecord& b) {
                      return std::tuple{a.report.step, a.report.vehicle} <
@@ -251,7 +244,8 @@ void ReportFile::finish() {
   for (const ReportRecord& record : records_) {
     text += line(record);
   }
-  write_file(file_, text);
+  file_.replace(text);
+  return file_.close();
 }
 
 std::vector<ReportRecord> read_reports(const std::filesystem::path& file) {

@@ -1,30 +1,30 @@
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hlc_bridge/messages/run_messages.hpp"
+#include "planner/common/growing_file.hpp"
 
 namespace hlc::record {
 
-/// reports.csv: every report of a run. One line per report as it arrives, flushed to the system at
-/// once, so that a crash of the program loses nothing; sorted by step, then vehicle, at the end.
+/// reports.csv: every report of a run. One line per report as it arrives, written at once, so that
+/// a crash of the program loses nothing; sorted by step, then vehicle, at the end. A line that
+/// cannot be written is no reason to stop (GrowingFile).
 class ReportFile {
  public:
   /// Starts an empty file. @throws std::runtime_error naming the file
-  explicit ReportFile(std::filesystem::path file);
+  ReportFile(std::filesystem::path file, GrowingFile::OnFailure on_failure);
 
-  /// @throws std::runtime_error naming the file
   void append(const ReportRecord& record);
-  /// Writes the sorted file in place of the present one. @throws std::runtime_error naming the file
-  void finish();
+  /// Writes the sorted file in place of the present one. Empty if that has every report, also those
+  /// that could not be appended; else a line for the log.
+  std::optional<std::string> finish();
 
  private:
-  std::filesystem::path file_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream_;
+  GrowingFile file_;
   std::vector<ReportRecord> records_;
 };
 

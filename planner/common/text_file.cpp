@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace hlc {
@@ -27,9 +28,11 @@ std::pair<fs::path, std::FILE*> new_file_beside(const fs::path& path) {
   }
 }
 
-bool is_written(std::FILE* file, std::string_view text) {
+/// @return errno, 0: all is written
+int write_and_close(std::FILE* file, std::string_view text) {
   const bool is_complete = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  return std::fclose(file) == 0 && is_complete;
+  const int error = is_complete ? 0 : errno;
+  return std::fclose(file) != 0 && is_complete ? errno : error;
 }
 
 struct Descriptor {
@@ -83,14 +86,12 @@ void write_file(const fs::path& path, std::string_view text) {
     throw std::runtime_error(path.string() + ": cannot be written, must be a regular file");
   }
   const auto [temporary, file] = new_file_beside(path);
-  if (file != nullptr) {
-    if (is_written(file, text)) {
-      fs::rename(temporary, path, error);
-      if (!error) return;
-    }
-    fs::remove(temporary, error);
-  }
-  throw std::runtime_error(path.string() + ": cannot be written");
+  error.assign(file == nullptr ? errno : write_and_close(file, text), std::generic_category());
+  if (!error) fs::rename(temporary, path, error);
+  if (!error) return;
+  std::error_code ignored;
+  if (file != nullptr) fs::remove(temporary, ignored);
+  throw std::system_error(error, path.string() + ": cannot be written");
 }
 
 std::string read_file(const fs::path& path, std::size_t most_bytes) {

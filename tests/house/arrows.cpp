@@ -52,7 +52,7 @@ const Arrows kArrows{
       "planner/automaton/subgraph_request.hpp"}},
     {"hlc_bridge/machine", {"hlc_bridge/messages"}},
     {"hlc_bridge/time", {"hlc_bridge/messages"}},
-    {"hlc_bridge/mcap", {"hlc_bridge/messages"}},
+    {"hlc_bridge/mcap", {"hlc_bridge/messages", "planner/common/growing_file.hpp"}},
     {"hlc_bridge/dds",
      {"hlc_bridge/messages", "planner/geometry", "planner/coordination/messages.hpp",
       "planner/coordination/report.hpp"}},

@@ -1,4 +1,5 @@
-// The recording of all messages (run.mcap) of runs with real processes.
+// The recording of all messages (run.mcap) of runs with real processes, and records that cannot be
+// written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,12 +10,15 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/record/configuration.hpp"
+#include "hlc_bridge/record/facts_file.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/mcap/mcap_reader.hpp"
 #include "tests/integration/lab_processes.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/support/program.hpp"
 
 namespace hlc::test {
@@ -131,6 +135,39 @@ TEST(Messages, OfProcessesThatAreKilledAreReadableUpToTheLastSecond) {
   EXPECT_GT(expected.size(), 20U);
   EXPECT_TRUE(std::ranges::includes(recorded, expected));
   EXPECT_TRUE(std::filesystem::exists(lab.folder() / "messages/lab_control.mcap"));
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+/// The cars drive as ever: only what is recorded of it ends early.
+TEST(Records, ThatCannotBeWrittenEndNoProcess) {
+  constexpr rlim_t kBytes = 8192;  // the logs are shorter, and what lab control publishes
+  LabProcesses lab({.records_messages = true});
+  {
+    const FullDisk disk(kBytes);
+    lab.start_all();
+  }
+  EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
+  for (const std::string& name : lab.names()) {
+    const std::string log = lab.log(name);
+    SCOPED_TRACE(name + ": " + log);
+    EXPECT_EQ(lab[name].wait_for(1ms), kExitNotWritten);
+    const bool has_rows = name == "lab_control" || name.starts_with("vehicle");
+    EXPECT_EQ(count_of(log, ".csv: no longer written: File too large"), has_rows ? 1U : 0U);
+    EXPECT_EQ(count_of(log, ".csv: incomplete, "), has_rows ? 1U : 0U);
+    const bool has_few_messages = name == "lab_control";
+    EXPECT_EQ(count_of(log, ".mcap: no longer written: File too large"),
+              has_few_messages ? 0U : 1U);
+    EXPECT_EQ(count_of(log, ".mcap: incomplete"), has_few_messages ? 0U : 1U);
+  }
+  EXPECT_EQ(record::read_facts(lab.folder() / "run.json").exit_code, kExitGood);
+  EXPECT_THAT(lab.log("lab_control"), testing::HasSubstr("25 steps driven"));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <stdexcept>
+#include <utility>
 
 #include "hlc_bridge/record/drive_file.hpp"
 #include "planner/common/text_file.hpp"
@@ -23,23 +23,25 @@ bool ends_with_a_row(const std::string& file) {
 
 }  // namespace
 
-DriveRecorder::DriveRecorder(const std::string& file, bool append) : file_(file) {
-  const bool goes_on = append && ends_with_a_row(file);
-  stream_.open(file, goes_on ? std::ios::app : std::ios::trunc);
-  if (!goes_on) stream_ << record::kDriveHeading << '\n' << std::flush;
-  check();
-}
+DriveRecorder::DriveRecorder(const std::string& file, GrowingFile::OnFailure on_failure,
+                             bool append)
+    : DriveRecorder(file, std::move(on_failure),
+                    append && ends_with_a_row(file) ? GrowingFile::Opening::kContinued
+                                                    : GrowingFile::Opening::kEmptied) {}
 
-void DriveRecorder::check() const {
-  if (!stream_) throw std::runtime_error(file_ + ": cannot be written");
+DriveRecorder::DriveRecorder(const std::string& file, GrowingFile::OnFailure on_failure,
+                             GrowingFile::Opening opening)
+    : file_(file, opening, std::move(on_failure)) {
+  if (opening == GrowingFile::Opening::kEmptied) {
+    file_.begin(std::string(record::kDriveHeading) + '\n');
+  }
 }
 
 void DriveRecorder::write(const result::DrivenSample& sample) {
-  stream_ << fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{}\n", sample.t,
-                         sample.pose.x_m, sample.pose.y_m, sample.pose.heading_rad,
-                         sample.speed_mps, sample.throttle, sample.steering, sample.command_create)
-          << std::flush;
-  check();
+  file_.write(fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{}\n", sample.t,
+                          sample.pose.x_m, sample.pose.y_m, sample.pose.heading_rad,
+                          sample.speed_mps, sample.throttle, sample.steering,
+                          sample.command_create));
 }
 
 }  // namespace hlc::apps

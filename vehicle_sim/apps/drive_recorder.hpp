@@ -1,9 +1,10 @@
 #pragma once
 
-#include <fstream>
+#include <optional>
 #include <string>
 
 #include "hlc_bridge/result/run_record.hpp"
+#include "planner/common/growing_file.hpp"
 
 namespace hlc::apps {
 
@@ -12,22 +13,24 @@ namespace hlc::apps {
 /// it.
 ///
 /// Numbers have 17 significant digits, so reading them back gives the same bits. Every row is
-/// flushed: the record survives a crash.
+/// written at once: the record survives a crash. A row that cannot be written is no reason to stop
+/// (GrowingFile).
 class DriveRecorder {
  public:
   /// @param append  continue after the rows of a process that ended before, dropping an incomplete
   /// row
-  /// @throws std::runtime_error if the file cannot be written
-  explicit DriveRecorder(const std::string& file, bool append = false);
+  /// @throws std::runtime_error naming the file if it cannot be opened or its heading written
+  DriveRecorder(const std::string& file, GrowingFile::OnFailure on_failure, bool append = false);
 
-  /// @throws std::runtime_error if the row cannot be written
   void write(const result::DrivenSample& sample);
+  /// GrowingFile
+  std::optional<std::string> close() { return file_.close(); }
 
  private:
-  void check() const;
+  DriveRecorder(const std::string& file, GrowingFile::OnFailure on_failure,
+                GrowingFile::Opening opening);
 
-  std::string file_;
-  std::ofstream stream_;
+  GrowingFile file_;
 };
 
 }  // namespace hlc::apps

@@ -62,11 +62,13 @@ void write_run_folder(const std::filesystem::path& folder, const scenario::Scena
 }
 
 void write_records(const std::filesystem::path& folder, const closed_loop::Experiment& experiment) {
+  const auto refuse = [](const std::string& line) { throw std::runtime_error(line); };
   for (const auto& [id, drive] : experiment.drives) {
-    DriveRecorder file(record::drive_file(folder, id).string());
+    DriveRecorder file(record::drive_file(folder, id).string(), refuse);
     for (const result::DrivenSample& sample : drive) file.write(sample);
+    file.close();
   }
-  record::ReportFile reports(folder / "reports.csv");
+  record::ReportFile reports(folder / "reports.csv", refuse);
   for (const ReportRecord& record : experiment.reports) reports.append(record);
   reports.finish();
   write_file(facts_file(folder), record::facts_json(experiment.facts));

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 
@@ -34,10 +35,13 @@ simulated_vehicle::VehicleFleet fleet(const VehicleProcessOptions& options) {
   return simulated_vehicle::VehicleFleet(machines);
 }
 
-std::vector<DriveRecorder> recorders(const VehicleProcessOptions& options) {
+std::vector<DriveRecorder> recorders(const VehicleProcessOptions& options,
+                                     const std::string& name) {
   std::vector<DriveRecorder> recorders;
   for (const std::string& file : options.record_files) {
-    recorders.emplace_back(file, options.append_record);
+    recorders.emplace_back(
+        file, [name](const std::string& line) { process::log(name, machine::warning(line)); },
+        options.append_record);
   }
   return recorders;
 }
@@ -96,7 +100,7 @@ struct VehicleProcess::Vehicle {
 VehicleProcess::VehicleProcess(VehicleProcessOptions options)
     : options_(std::move(options)),
       name_(name_of(options_)),
-      recorders_(recorders(options_)),
+      recorders_(recorders(options_, name_)),
       shell_(name_, fleet(options_),
              options_.time.make_pacing(time::nanoseconds(options_.startup_timeout),
                                        time::wall_time_now())),
@@ -136,7 +140,15 @@ int VehicleProcess::run() {
         ->perform(machine::info(fmt::format("at ({:.3f} m, {:.3f} m, {:.3f} rad)", pose.x_m,
                                             pose.y_m, pose.heading_rad)));
   }
-  return shell_.run(*this);
+  const int exit_code = shell_.run(*this);
+  bool are_complete = true;
+  for (DriveRecorder& recorder : recorders_) {
+    if (const auto incomplete = recorder.close()) {
+      perform(machine::warning(*incomplete));
+      are_complete = false;
+    }
+  }
+  return exit_code_with_outputs(exit_code, are_complete);
 }
 
 simulated_vehicle::FleetPresence VehicleProcess::presence() const {

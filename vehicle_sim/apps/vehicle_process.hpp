@@ -45,7 +45,8 @@ class VehicleProcess {
   ~VehicleProcess();
 
   /// Until the stop symbol was received and the vehicles have braked, or `stop` is called. The exit
-  /// code: also 3 if a required participant did not appear, and 4 if the lab control dies.
+  /// code: also 1 if a record is incomplete, 3 if a required participant did not appear, and 4 if
+  /// the lab control dies.
   [[nodiscard]] int run();
 
   /// Ends the run soon. From any thread.

@@ -68,7 +68,8 @@ void declare(CLI::App& app, Flags& flags) {
   app.footer(
       "In real time the car waits for commands without a time limit, as the lab's does "
       "(--startup_timeout_s counts in logical time).\n"
-      "Exit codes: 0 success, 1 success, but --messages is incomplete, 2 invalid input, 3 startup "
+      "Exit codes: 0 success, 1 success, but --record or --messages is incomplete, 2 invalid "
+      "input, 3 startup "
       "timeout, 4 the lab control died.");
 }
 

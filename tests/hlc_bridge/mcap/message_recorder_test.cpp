@@ -117,8 +117,7 @@ TEST_F(MessageRecorderTest, AFullDiskIsOneLineAndTheProcessGoesOn) {
     EXPECT_FALSE(recorder.close());
     recorder.record({.topic = "a", .type = "A", .cdr = payload, .run = {}});
   }
-  EXPECT_THAT(failures_,
-              ElementsAre(HasSubstr("car.mcap: messages are no longer recorded: File too large")));
+  EXPECT_THAT(failures_, ElementsAre(HasSubstr("car.mcap: no longer written: File too large")));
 }
 
 TEST_F(MessageRecorderTest, AFolderThatCannotBeCreatedIsNamed) {

@@ -177,6 +177,22 @@ TEST_F(LabControlTest, StopRequestOfAControllerEndsTheRun) {
   EXPECT_EQ(facts().reason, "high_level_controller_7 requested the stop");
 }
 
+TEST_F(LabControlTest, ARunFolderThatIsRemovedDoesNotEndTheRun) {
+  start();
+  VehicleEndpoints vehicle{domain_.first()};
+  ASSERT_TRUE(begins(vehicle));
+  std::filesystem::remove_all(folder_ / "run");
+  process_->interrupt();
+  EXPECT_EQ(exit_code(), kExitInterrupted);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "run"));
+}
+
+TEST_F(LabControlTest, ARunFolderThatCannotBeWrittenIsInvalidFromTheStart) {
+  std::filesystem::create_directories(folder_ / "run" / "run.json");
+  EXPECT_THAT([&] { LabControlProcess{options_}; },
+              ThrowsMessage<std::runtime_error>(HasSubstr("run.json: cannot be written")));
+}
+
 TEST_F(LabControlTest, NamesWhoDoesNotAppear) {
   options_.run.startup_timeout = kNanosecondsPerSecond;
   start();

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "planner/common/text_file.hpp"
+#include "tests/support/full_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc::record {
@@ -96,6 +97,8 @@ void expect_equal(const ReportRecord& a, const ReportRecord& b) {
   EXPECT_EQ(a.response_ns, b.response_ns);
 }
 
+const auto kUnexpected = [](const std::string& line) { ADD_FAILURE() << line; };
+
 TEST(ReportFile, ReadsBackEveryFieldAndSortsAtTheEnd) {
   const unsigned seed = 23;
   SCOPED_TRACE(seed);
@@ -110,7 +113,7 @@ TEST(ReportFile, ReadsBackEveryFieldAndSortsAtTheEnd) {
   std::vector<ReportRecord> arriving = sorted;
   std::shuffle(arriving.begin(), arriving.end(), random);
 
-  ReportFile file{folder / "reports.csv"};
+  ReportFile file{folder / "reports.csv", kUnexpected};
   for (std::size_t i = 0; i < arriving.size(); ++i) {
     file.append(arriving[i]);
     // As if the program died now: everything so far is there.
@@ -129,7 +132,7 @@ TEST(ReportFile, ReadsBackEveryFieldAndSortsAtTheEnd) {
 
 TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
   const test::TemporaryFolder folder;
-  ReportFile file{folder / "reports.csv"};
+  ReportFile file{folder / "reports.csv", kUnexpected};
   std::mt19937_64 random{1};
   ReportRecord record = random_record(random, 1, 2);
   record.report.status = coordination::StepStatus::kPlanned;
@@ -158,9 +161,39 @@ TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
               ThrowsMessage<std::runtime_error>(HasSubstr("coupled = \"300\"")));
 }
 
+TEST(ReportFile, WhatCouldNotBeAppendedIsInTheSortedFileIfThatIsWritten) {
+  const test::TemporaryFolder folder;
+  std::vector<std::string> failures;
+  const auto note = [&](const std::string& line) { failures.push_back(line); };
+  ReportFile file{folder / "reports.csv", note};
+  {
+    const test::FullDisk disk(1);
+    file.append({});
+    file.append({});
+  }
+  EXPECT_THAT(failures, testing::ElementsAre(HasSubstr("reports.csv: no longer written: File")));
+  EXPECT_EQ(file.finish(), std::nullopt);
+  EXPECT_EQ(read_reports(folder / "reports.csv").size(), 2U);
+}
+
+TEST(ReportFile, ThatItsFolderIsRemovedIsReportedOnceAndAtTheEnd) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "run");
+  std::vector<std::string> failures;
+  const auto note = [&](const std::string& line) { failures.push_back(line); };
+  ReportFile file{folder / "run" / "reports.csv", note};
+  std::filesystem::remove_all(folder / "run");
+  file.append({});
+  file.append({});
+  EXPECT_THAT(failures, testing::ElementsAre(HasSubstr("reports.csv: no longer written: No such")));
+  EXPECT_THAT(file.finish(),
+              testing::Optional(HasSubstr("reports.csv: incomplete, 2 rows are missing")));
+  EXPECT_EQ(failures.size(), 1U);
+}
+
 TEST(ReportFile, FolderThatIsNotThereIsNamed) {
   const test::TemporaryFolder folder;
-  EXPECT_THAT([&] { ReportFile{folder / "no" / "reports.csv"}; },
+  EXPECT_THAT([&] { ReportFile(folder / "no" / "reports.csv", kUnexpected); },
               ThrowsMessage<std::runtime_error>(HasSubstr("no/reports.csv: cannot be written")));
 }
 

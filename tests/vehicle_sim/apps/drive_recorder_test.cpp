@@ -1,9 +1,12 @@
 #include "vehicle_sim/apps/drive_recorder.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <vector>
 
 #include "hlc_bridge/record/drive_file.hpp"
 #include "tests/support/full_disk.hpp"
@@ -19,12 +22,17 @@ std::string lines_of(const std::filesystem::path& file) {
 
 class DriveRecorderTest : public testing::Test {
  protected:
+  DriveRecorder open(const std::filesystem::path& file, bool append = false) {
+    return {file, [this](const std::string& line) { failures_.push_back(line); }, append};
+  }
+
   const test::TemporaryFolder folder_;
+  std::vector<std::string> failures_;
 };
 
 TEST_F(DriveRecorderTest, RowsAreOnTheDiskAtOnceWithAllDigits) {
   const std::filesystem::path file = folder_ / "drive.csv";
-  DriveRecorder recorder(file);
+  DriveRecorder recorder = open(file);
   recorder.write({.t = 20'000'000,
                   .pose = {.x_m = 1.0 / 3.0, .y_m = -2.5, .heading_rad = 1e-20},
                   .speed_mps = 0.1,
@@ -39,7 +47,7 @@ TEST_F(DriveRecorderTest, RowsAreOnTheDiskAtOnceWithAllDigits) {
 
 TEST_F(DriveRecorderTest, WhatIsWrittenIsReadBackBitForBit) {
   const std::filesystem::path file = folder_ / "drive.csv";
-  DriveRecorder recorder(file);
+  DriveRecorder recorder = open(file);
   const Pose pose{.x_m = 1.0 / 3.0, .y_m = -0.1, .heading_rad = 1e-17};
   recorder.write({.t = 20'000'000, .pose = pose, .speed_mps = 0.7, .steering = -0.2});
   const result::Drive drive = record::read_drive(file);
@@ -52,7 +60,7 @@ TEST_F(DriveRecorderTest, WhatIsWrittenIsReadBackBitForBit) {
 
 TEST_F(DriveRecorderTest, FileThatCannotBeWrittenIsNamed) {
   try {
-    DriveRecorder recorder(folder_ / "no_such_folder" / "drive.csv");
+    static_cast<void>(open(folder_ / "no_such_folder" / "drive.csv"));
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("no_such_folder"), std::string::npos);
@@ -61,30 +69,31 @@ TEST_F(DriveRecorderTest, FileThatCannotBeWrittenIsNamed) {
 
 TEST_F(DriveRecorderTest, OfACarThatIsStartedAgainTheWholeDriveIsThere) {
   const std::filesystem::path file = folder_ / "drive.csv";
-  DriveRecorder(file).write({.t = 20'000'000});
+  open(file).write({.t = 20'000'000});
   { std::ofstream(file, std::ios::app) << "40000000,0.1,0"; }  // killed in the middle of a row
-  DriveRecorder(file, true).write({.t = 60'000'000});
-  DriveRecorder(file, true).write({.t = 80'000'000});
+  open(file, true).write({.t = 60'000'000});
+  open(file, true).write({.t = 80'000'000});
   const result::Drive drive = record::read_drive(file);
   ASSERT_EQ(drive.size(), 3U);
   EXPECT_EQ(drive[1].t, 60'000'000U);
-  DriveRecorder(folder_ / "new.csv", true).write({.t = 20'000'000});
+  open(folder_ / "new.csv", true).write({.t = 20'000'000});
   EXPECT_EQ(record::read_drive(folder_ / "new.csv").size(), 1U);
-  DriveRecorder(file).write({.t = 20'000'000});
+  open(file).write({.t = 20'000'000});
   EXPECT_EQ(record::read_drive(file).size(), 1U);
 }
 
-// Otherwise a full disk would truncate a drive silently.
-TEST_F(DriveRecorderTest, ARowThatCannotBeWrittenIsAnError) {
+TEST_F(DriveRecorderTest, ARowThatCannotBeWrittenIsReportedAndTheCarDrivesOn) {
   const std::filesystem::path file = folder_ / "drive.csv";
-  DriveRecorder recorder(file);
-  const test::FullDisk disk(std::filesystem::file_size(file) + 5);
-  try {
+  DriveRecorder recorder = open(file);
+  {
+    const test::FullDisk disk(std::filesystem::file_size(file) + 5);
     recorder.write({.t = 20'000'000});
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), file.string() + ": cannot be written");
   }
+  recorder.write({.t = 40'000'000});
+  EXPECT_THAT(failures_,
+              testing::ElementsAre(file.string() + ": no longer written: File too large"));
+  EXPECT_EQ(recorder.close(), file.string() + ": incomplete, 2 rows are missing");
+  EXPECT_TRUE(record::read_drive(file).empty()) << "no row behind the incomplete one";
 }
 
 }  // namespace
