@@ -1,8 +1,10 @@
 #include "hlc_bridge/dds/participant.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <array>
@@ -195,6 +197,23 @@ TEST(Participant, BadOptionsAreRefusedAndTheProcessGoesOn) {
   ParticipantOptions options = on_loopback("red", 1, DomainRole::kLocal);
   options.discovery_server = DiscoveryServer{"44.53.00.5f.45.50.52.4f.53.49.4d.41", "127.0.0.1", 1};
   EXPECT_THROW(Participant{options}, std::invalid_argument);
+}
+
+TEST(Participant, WithoutFreeFileDescriptorsIsRefusedWithTheReason) {
+  rlimit before{};
+  getrlimit(RLIMIT_NOFILE, &before);
+  const test::DomainReservation domain(1);
+  std::string reason;
+  const rlimit few{20, before.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &few);
+  try {
+    const Participant participant{on_loopback("blue", domain.first(), DomainRole::kLab)};
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  setrlimit(RLIMIT_NOFILE, &before);
+  EXPECT_THAT(reason, testing::HasSubstr("free file descriptors must be >= 20, got "));
+  EXPECT_THAT(reason, testing::HasSubstr("(ulimit -n 20)"));
 }
 
 TEST(Endpoints, OfATopicOnTheWrongDomainAreRefused) {
