@@ -69,8 +69,8 @@ struct LibraryFunctions {
 };
 
 const LibraryFunctions& library() {
-  static const LibraryFunctions functions;
-  return functions;
+  static const LibraryFunctions kFunctions;
+  return kFunctions;
 }
 
 // For each message that a heartbeat or gap declares gone, the library takes a step of a loop, with
