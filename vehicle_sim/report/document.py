@@ -17,9 +17,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from report.errors import InputError
+from report.files import read_text
 
 PROGRAM = "    build/release/bin/"
+COMMAND, FOLDER = re.compile(r"build/release/bin/\w+"), re.compile(r"runs/\w[\w.-]*")
 BEGIN, END = re.compile(r"<!-- table (.+) -->"), "<!-- end of table -->"
+ABOUT_TABLES = re.compile(r"<!--\s*(?:end of )?table\b")
 STATED = re.compile(r"<!-- stated: ([^;]*).* -->")
 NO_WORDS = re.compile(r"`[^`]*`|\]\([^)]*\)|<!--.*?-->|https?://\S+|(?:Tables?|Figs?\.|Figures?) \d+(?: and \d+)?")
 FIGURE = re.compile(r"(?<![\w.])\d(?:[\d ]*\d)?(?:\.\d+)?(?![\w])")
@@ -56,36 +59,32 @@ def commands(document: Path) -> list[list[str]]:
             continue
         try:
             words = shlex.split(line, comments=True)
-            if not words[words.index("--out") + 1].startswith("runs/"):
+            if not COMMAND.fullmatch(words[0]) or not FOLDER.fullmatch(words[words.index("--out") + 1]):
                 raise ValueError
         except (ValueError, IndexError):
-            raise InputError(f"{document}:{number}: {line.strip()}, must have --out runs/NAME") from None
+            raise InputError(f"{document}:{number}: {line.strip()}, must be {PROGRAM.strip()}NAME ... --out runs/NAME") \
+                from None
         found[tuple(words)] = None
     return [list(one) for one in found]
 
 
 def filled(document: Path, table_of: Callable[[str], str]) -> str:
-    """The document with each table replaced by what table_of makes of its address.
+    """The document with each table replaced by what table_of makes of its address; all else stays.
 
-    @raises InputError for a table without its end, and what table_of raises, at its line."""
-    text, address = "", None
-    for number, line in enumerate(_lines(document), 1):
-        begins = BEGIN.fullmatch(line)
-        if address is None or line == END:
-            text += line + "\n"
-        if begins:
-            if address is not None:
-                break
-            address = begins[1]
+    @raises InputError for a damaged comment, and what table_of raises, at its line."""
+    text, in_table = [], False
+    for number, line in enumerate(_checked_lines(document), 1):
+        if line == END:
+            in_table = False
+        if not in_table:
+            text.append(line)
+        if begins := BEGIN.fullmatch(line):
+            in_table = True
             try:
-                text += table_of(address)
+                text.append(table_of(begins[1]).rstrip("\n"))
             except InputError as error:
                 raise InputError(f"{document}:{number}: {error}") from None
-        elif line == END:
-            address = None
-    if address is not None:
-        raise InputError(f"{document}: table {address}, must be followed by {END}")
-    return text
+    return "\n".join(text)
 
 
 def unfounded(document: Path) -> list[str]:
@@ -109,7 +108,7 @@ def unfounded(document: Path) -> list[str]:
 
 def _sections(document: Path) -> list[Section]:
     sections, in_table = [Section([])], False
-    for number, line in enumerate(_lines(document), 1):
+    for number, line in enumerate(_checked_lines(document), 1):
         if line.startswith("## "):
             sections.append(Section([]))
         here = sections[-1]
@@ -125,8 +124,23 @@ def _sections(document: Path) -> list[Section]:
     return sections
 
 
+def _checked_lines(document: Path) -> list[str]:
+    """@raises InputError for a document without tables, and for a comment that would be none of ours by mistake"""
+    lines, begun = _lines(document), 0
+    for number, line in enumerate(lines, 1):
+        if BEGIN.fullmatch(line) and not begun:
+            begun = number
+        elif line == END and begun:
+            begun = 0
+        elif ABOUT_TABLES.search(line):
+            expected = END if begun else "<!-- table FOLDER > HEADING -->"
+            raise InputError(f"{document}:{number}: {line}, must be {expected}")
+    if begun:
+        raise InputError(f"{document}:{begun}: {lines[begun - 1]}, must be followed by {END}")
+    if END not in lines:
+        raise InputError(f"{document}: no table, must have one between <!-- table FOLDER > HEADING --> and {END}")
+    return lines
+
+
 def _lines(document: Path) -> list[str]:
-    try:
-        return document.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{document}: {error}, must be a document (UTF-8)") from None
+    return read_text(document, "a document").split("\n")

@@ -30,7 +30,7 @@ def _parse() -> argparse.Namespace:
         description="Makes the tables of documents again: drives each command `build/release/bin/... --out runs/NAME` in\n"
                     "them, replaces each table by that of the rows, and names figures in the words that are in no table.",
         epilog="Exit codes: 0 done, 1 a figure in the words is in no table, or a command failed, 2 invalid input,\n"
-               "3 not writable, or Python's packages cannot be installed.")
+               "3 not writable, or Python's packages cannot be installed, 130 interrupted.")
     parser.add_argument("documents", metavar="DOCUMENT", nargs="*", type=Path, default=DOCUMENTS,
                         help="Markdown; default: EVALUATION.md and RECONFIGURATION.md of vehicle_sim (10 minutes)")
     parser.add_argument("--out", metavar="FOLDER", type=Path, default=ROOT / "runs" / "documents",
@@ -46,19 +46,23 @@ def _drive(command: list[str], out: Path) -> None:
     print(shlex.join(command), file=sys.stderr)
     place = command.index("--out") + 1
     command = [*command[:place], str(out / Path(command[place]).relative_to("runs")), *command[place + 1:]]
+    if not (ROOT / command[0]).exists():
+        raise InputError(f"{command[0]}: no such program, must be built first: launch_scripts/build.sh")
     code = subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, check=False).returncode
     if code not in (0, 1):  # 1: runs that do not count, which the tables have
         raise InputError(f"{shlex.join(command)}: exit code {code}, must be 0 or 1")
 
 
 def _update(documents: list[Path], out: Path, may_exist: bool) -> None:
+    for document in documents:
+        filled(document, lambda _: "")  # before anything is driven
     if out.exists() and not may_exist:
         raise InputError(f"{out}: exists, must be new, or --resume be given")
     for command in [one for document in documents for one in commands(document)]:
         _drive(command, out)
     texts = {document: filled(document, partial(page_table, out)) for document in documents}
     for document, text in texts.items():
-        replace(document, lambda file, text=text: file.write_text(text, encoding="utf-8"))
+        replace(document.resolve(), lambda file, text=text: file.write_bytes(text.encode("utf-8")))
 
 
 def main() -> int:
@@ -66,7 +70,7 @@ def main() -> int:
     flags = _parse()
     try:
         if not flags.check:
-            _update(flags.documents, flags.out, flags.resume)
+            _update(flags.documents, flags.out.resolve(), flags.resume)
         findings = [one for document in flags.documents for one in unfounded(document)]
     except InputError as error:
         print(f"documents: {error}", file=sys.stderr)

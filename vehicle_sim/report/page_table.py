@@ -10,9 +10,11 @@ import re
 from pathlib import Path
 
 from report.errors import InputError
+from report.files import read_text
 from report.markdown import table
 
 ADDRESS = re.compile(r"(?P<path>.+?)(?: number (?P<number>\d+))?(?: where (?P<where>.+))?")
+NAME = re.compile(r"\w[\w.-]*")
 CELL = re.compile(r"(?<!\\)\|")
 
 
@@ -20,15 +22,17 @@ def page_table(runs: Path, address: str) -> str:
     """The table as Markdown. @param runs: the folder with FOLDER. @raises InputError for one that is not there."""
     parts = ADDRESS.fullmatch(address)
     folder, *headings = (one.strip() for one in parts["path"].split(" > "))
+    if not NAME.fullmatch(folder):
+        raise InputError(f"table {address}: {folder}, must be the name of a folder")
     page = runs / folder / "report.md"
-    try:
-        lines = page.read_text(encoding="utf-8").splitlines()
-    except OSError as error:
-        raise InputError(f"{page}: {error.strerror}, must be a page that --report made") from None
+    lines = read_text(page, "a page that --report made").split("\n")
     found, number = _tables(lines, headings), int(parts["number"] or 1)
     if not 1 <= number <= len(found):
         raise InputError(f"table {address}, {page} has {len(found)} below such headings")
-    titles, _, *rows = ([cell.strip().replace("\\|", "|") for cell in CELL.split(line)[1:-1]] for line in found[number - 1])
+    titles, *rows = ([cell.strip().replace("\\|", "|") for cell in CELL.split(line)[1:-1]] for line in found[number - 1])
+    rows = rows[1:]  # without that of dashes
+    if any(len(row) != len(titles) for row in rows):
+        raise InputError(f"table {address}, {page}: rows of {len(titles)} cells, must all have as many")
     for condition in (parts["where"] or "").split(" and ") if parts["where"] else []:
         column, _, values = condition.partition(" =")
         if column not in titles:

@@ -37,17 +37,25 @@ def read_priorities(folder: Path, origin: dict[str, str], plan: dict[str, object
     different = len(runs.drop_duplicates(CELL + ["draw"]))
     if len(runs) != plan["runs"] or different != plan["runs"] or (runs.run != runs.index).any():
         rows.fail(f"{len(runs)} rows, {different} different ones", f"{plan['runs']} by number, as campaign.json has it")
+    for name, allowed in {"cars": plan["cars"], "draw": plan["draws"], "steps": [plan["steps"]]}.items():
+        if not runs[name].isin(allowed).all():
+            rows.fail(f"{name} = {runs[name][~runs[name].isin(allowed)].iloc[0]}",
+                      f"one of {', '.join(map(str, allowed))}, as campaign.json has it")
     rows = Rows(folder / "steps.csv")
     steps = pd.DataFrame({name: rows.integers(name) for name in ("run", "step", "levels")}
                          | {"step_ms": rows.numbers("step_ms", needed=pd.Series(True, index=range(len(rows))))})
     if not steps.groupby("run").step.count().reindex(runs.run, fill_value=0).eq(runs.steps).all():
         rows.fail(f"{len(steps)} rows", f"{runs.steps.sum()}: every step of every run of runs.csv")
+    if steps.duplicated(["run", "step"]).any():
+        rows.fail("a step twice", "with a row per run and step")
     if not steps.run.isin(runs.run).all():
         rows.fail(f"run {steps.run[~steps.run.isin(runs.run)].iloc[0]}", "a run of runs.csv")
     rows = Rows(folder / "gaps.csv")
     gaps = pd.DataFrame({"run": rows.integers("run"), "vehicles": rows.integers("vehicles")}
                         | {name: rows.numbers(name, needed=pd.Series(True, index=range(len(rows))))
                            for name in ("cost_m2", "bound_m2")})
+    if (gaps.bound_m2 < 0.0).any():
+        rows.fail(f"bound_m2 = {gaps.bound_m2.min()}", ">= 0")
     if not gaps.run.isin(runs.run).all():
         rows.fail(f"run {gaps.run[~gaps.run.isin(runs.run)].iloc[0]}", "a run of runs.csv")
     of_cell = runs[["run", *CELL]]

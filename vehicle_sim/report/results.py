@@ -10,6 +10,7 @@ import pandas as pd
 
 from report import columns
 from report.errors import InputError
+from report.files import read_text
 from report.priorities import Priorities, read_priorities
 from report.rows import Rows
 
@@ -64,11 +65,7 @@ def read_folder(folder: Path) -> Campaign | Sweep | Priorities:
     """@raises InputError for a folder that neither program wrote, and for rows of another format."""
     path = folder / "campaign.json"
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file, must be written by evaluate") from None
-    except OSError as error:
-        raise InputError(f"{path}: {error.strerror}, must be a file that evaluate wrote") from None
+        record = json.loads(read_text(path, "written by evaluate or compare_priorities"))
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: {type(error).__name__}, must be JSON as evaluate wrote it") from None
     kind = _field(record, "kind", str, path)

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from report.errors import InputError
+from report.files import check_regular
 
 
 class Rows:
@@ -15,6 +16,7 @@ class Rows:
 
     def __init__(self, path: Path) -> None:
         self._path = path
+        check_regular(path, "written by evaluate or compare_priorities")
         try:
             with path.open(newline="", encoding="utf-8") as file:
                 reader = csv.reader(file, strict=True)
@@ -25,8 +27,6 @@ class Rows:
                         raise self._error(reader.line_num, f"{len(row)} values", f"{len(self._header)} as in line 1")
                     self._lines.append(reader.line_num)
                     rows.append(row)
-        except FileNotFoundError:
-            raise InputError(f"{path}: no such file, must be written by evaluate") from None
         except (OSError, UnicodeDecodeError, csv.Error) as error:
             raise InputError(f"{path}: {error}, must be comma-separated UTF-8 text (RFC 4180)") from None
         if len(set(self._header)) != len(self._header):

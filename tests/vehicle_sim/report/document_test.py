@@ -1,5 +1,6 @@
 """Documents whose tables are made of rows."""
 
+import os
 import tempfile
 import unittest
 from pathlib import Path
@@ -73,12 +74,16 @@ class PageTable(Documents):
 
     def test_names_what_is_not_there(self) -> None:
         runs = self.page()
+        (runs / "short").mkdir()
+        (runs / "short" / "report.md").write_text("## By search\n\n| a | b |\n| --- | --- |\n| 1 |\n", encoding="utf-8")
         for address, message in {"none > By search": "must be a page that --report made",
+                                 "../rules > By search": "[.][.]/rules, must be the name of a folder",
+                                 "short > By search": "rows of 2 cells, must all have as many",
                                  "rules > By lap": "has 0 below such headings",
                                  "rules > Sweep number 4": "has 2 below such headings",
                                  "rules > By search where laps = 1": "column laps, must be one of search, lap [s]",
                                  "rules > By search where search = 2023": "no row with search = 2023"}.items():
-            with self.subTest(address=address), self.assertRaisesRegex(InputError, message.replace("[", r"\[")):
+            with self.subTest(address=address), self.assertRaisesRegex(InputError, message.replace("search, lap [s]", r"search, lap \[s\]")):
                 page_table(runs, address)
 
 
@@ -105,8 +110,9 @@ class Document(Documents):
                          [["build/release/bin/evaluate", "--a", "--out", "runs/a", "--report"]])
 
     def test_a_command_with_an_output_elsewhere_is_refused_at_its_line(self) -> None:
-        for arguments in ("--out /tmp/a", "--report --out", "--out 'runs/a", "--out=runs/a"):
-            with self.subTest(arguments=arguments), self.assertRaisesRegex(InputError, "DOCUMENT.md:2: .* must have --out"):
+        for arguments in ("--out /tmp/a", "--report --out", "--out 'runs/a", "--out=runs/a", "--out runs/../a",
+                          "--out runs/a/b", "--out runs/.."):
+            with self.subTest(arguments=arguments), self.assertRaisesRegex(InputError, "DOCUMENT.md:2: .* must be build/release/bin/NAME"):
                 commands(self.document(f"\n    build/release/bin/evaluate {arguments}\n"))
 
     def test_tables_are_replaced_and_all_else_stays(self) -> None:
@@ -122,6 +128,30 @@ class Document(Documents):
         with self.assertRaisesRegex(InputError, "must be followed by <!-- end of table -->"):
             filled(self.document(self.TEXT.replace("<!-- end of table -->", "")), lambda address: "")
 
+    def test_a_damaged_comment_is_refused_at_its_line(self) -> None:
+        whole = "<!-- table a -->\n| 1 |\n<!-- end of table -->\n"
+        for damaged, message in {whole.replace("a -->", "a ->"): ":1: <!-- table a ->, must be <!-- table FOLDER",
+                                 whole.replace("<!-- end of", "<!--end of"): ":3: <!--end of table -->, must be <!-- end",
+                                 whole + "<!-- end of table -->": ":4: <!-- end of table -->, must be <!-- table",
+                                 whole.replace("| 1 |", "<!-- table b -->"): ":2: <!-- table b -->, must be <!-- end",
+                                 "words": ": no table, must have one between"}.items():
+            for function in (unfounded, lambda document: filled(document, lambda address: "")):
+                with self.subTest(damaged=damaged), self.assertRaisesRegex(InputError, "DOCUMENT.md" + message):
+                    function(self.document(damaged))
+
+    def test_what_is_no_regular_file_is_refused(self) -> None:
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        for path in (pipe, Path("/dev/null"), self.folder):
+            with self.subTest(path=path), self.assertRaisesRegex(InputError, "cannot be read, must be a document"):
+                unfounded(path)
+
+    def test_line_ends_stay_as_they_are(self) -> None:
+        text = "a\r\nb\x0cc\u2028d\n<!-- table a -->\nold\n<!-- end of table -->\nno line end"
+        path = self.folder / "DOCUMENT.md"
+        path.write_bytes(text.encode())
+        self.assertEqual(filled(path, lambda address: "new\n"), text.replace("old", "new"))
+
     def test_a_figure_in_the_words_has_to_be_in_a_table_of_its_section(self) -> None:
         table = "<!-- table a -->\n| 15.97 |\n<!-- end of table -->\n"
         self.assertEqual(self.findings(f"## One\n15.97 s\n{table}## Two\n15.97 s, `16.1`, [page](16.3), Table 2\n"), [])
@@ -131,9 +161,10 @@ class Document(Documents):
                          ["6: 15.97, must be in a table of its section, or be stated"])
 
     def test_a_stated_figure_is_of_its_section_and_used(self) -> None:
-        self.assertEqual(self.findings("## One\n0.8 m/s\n<!-- stated: 0.8; m/s, not 2 -->\n## Two\n0.8 m/s\n"),
+        table = "<!-- table a -->\n| none |\n<!-- end of table -->\n"
+        self.assertEqual(self.findings(f"## One\n0.8 m/s\n<!-- stated: 0.8; m/s, not 2 -->\n## Two\n0.8 m/s\n{table}"),
                          ["5: 0.8, must be in a table of its section, or be stated"])
-        self.assertEqual(self.findings("## One\n<!-- stated: 0.8 -->\n## Two\n"),
+        self.assertEqual(self.findings(f"## One\n<!-- stated: 0.8 -->\n## Two\n{table}"),
                          ["1: 0.8 is stated, must be in the section's words"])
 
     def test_figures_in_the_words_of_our_documents_are_in_their_tables(self) -> None:

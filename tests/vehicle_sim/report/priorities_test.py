@@ -82,6 +82,21 @@ class PrioritiesPage(unittest.TestCase):
             with self.assertRaisesRegex(InputError, f"{name}: {rows}"):
                 read_folder(self.folder)
 
+    def test_rows_that_the_campaign_has_not_are_refused(self) -> None:
+        for name, column, value, message in (("runs.csv", "cars", "9", "cars = 9, must be one of"),
+                                             ("runs.csv", "draw", "77", "draw = 77, must be one of"),
+                                             ("steps.csv", "step", "1", "a step twice, must be"),
+                                             ("steps.csv", "run", "50", "must be"),
+                                             ("gaps.csv", "bound_m2", "-5", "bound_m2 = -5.0, must be >= 0"),
+                                             ("gaps.csv", "run", "50", "run 50, must be a run of runs.csv")):
+            write(self.folder)
+            path = self.folder / name
+            rows = pd.read_csv(path, dtype=str)
+            rows.loc[0, column] = value
+            rows.to_csv(path, index=False)
+            with self.subTest(name=name, column=column), self.assertRaisesRegex(InputError, f"{name}: .*{message}"):
+                read_folder(self.folder)
+
     def test_figures_are_written_with_the_values_of_the_table(self) -> None:
         write(self.folder)
         results = read_folder(self.folder)
