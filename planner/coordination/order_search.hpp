@@ -32,7 +32,7 @@ using TryOrder =
 
 /// A search over orders in a control step tries no further order once its plans have expanded so
 /// many vertices (OrderCost::expanded). Plans of one order may expand more, each up to its own
-/// budget. How it was chosen: priorities/README.md.
+/// budget. How it was chosen: priorities/BUDGET.md.
 inline constexpr std::size_t kMostOrderExpansions = 6'000;
 
 /// What a plan takes beside its expansions, in expansions: to pose its problem, copy the state of

@@ -14,6 +14,7 @@ from report.page_table import page_table
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = [ROOT / "vehicle_sim" / name for name in ("EVALUATION.md", "RECONFIGURATION.md")]
+SLOW_DOCUMENTS = [ROOT / "planner/coordination/priorities/README.md"]  # half an hour
 NOT_FOUNDED, BAD_INPUT, NOT_WRITABLE, INTERRUPTED = 1, 2, 3, 130
 
 
