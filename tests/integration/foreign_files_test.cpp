@@ -117,15 +117,12 @@ TEST_P(FilesInTmp, NeitherStopTheScriptNorAreFollowed) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scripts, FilesInTmp,
-    testing::Values(InTmp{"Pipe", "mkfifo -m 666 $lock", 0},
-                    InTmp{"DanglingLink", "ln -s /tmp/target $lock", 0},
-                    InTmp{"LockOfAnother",
-                          "install -m 666 /dev/null $lock; flock $lock sleep 100 & until ! flock "
-                          "-n $lock true; do :; done",
-                          0},
-                    InTmp{"FolderOfAnother", "install -d -m 700 -o nobody hlc-0", 2},
-                    InTmp{"LinkInsteadOfAFolder", "install -d -m 700 target2; ln -s target2 hlc-0",
-                          2}),
+    testing::Values(
+        InTmp{"Pipe", "mkfifo -m 666 $lock", 0},
+        InTmp{"DanglingLink", "ln -s /tmp/target $lock", 0},
+        InTmp{"LockOfAnother", "install -m 666 /dev/null $lock; exec 9<>$lock && flock 9", 0},
+        InTmp{"FolderOfAnother", "install -d -m 700 -o nobody hlc-0", 2},
+        InTmp{"LinkInsteadOfAFolder", "install -d -m 700 target2; ln -s target2 hlc-0", 2}),
     [](const auto& one) { return one.param.name; });
 
 TEST_F(ForeignFiles, ALockIsTakenByOneProcessAtATime) {

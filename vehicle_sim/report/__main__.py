@@ -6,25 +6,18 @@ from pathlib import Path
 
 from report.errors import InputError
 from report.files import replace
+from report.flags import BAD_INPUT, INTERRUPTED, NOT_WRITABLE, Parser
 from report.priorities import Priorities
 from report.results import read_folder
 from report.tables import Page, page_of
 
-BAD_INPUT, NOT_WRITABLE, INTERRUPTED = 2, 3, 130
 NO_SERIES = "None: there are no series, which `evaluate --series` writes for a campaign."
 NOT_DRAWN = "Not drawn: the report ended before."
 
 
-class _Parser(argparse.ArgumentParser):
-    """Errors are one line."""
-
-    def error(self, message: str) -> None:
-        self.exit(BAD_INPUT, f"report: {message}, see --help\n")
-
-
 def _parse() -> argparse.Namespace:
-    parser = _Parser(
-        prog="report", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = Parser(
+        prog="report",
         description="Tables, statistics and figures of a folder that evaluate or compare_priorities wrote: "
                     "OUT/report.md is\nthe page, OUT/report/ has the data of every table and the figures (of evaluate "
                     "only if it wrote OUT/series).",

@@ -10,24 +10,18 @@ from pathlib import Path
 from report.document import commands, filled, unfounded
 from report.errors import InputError
 from report.files import replace
+from report.flags import BAD_INPUT, INTERRUPTED, NOT_WRITABLE, Parser
 from report.page_table import page_table
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = [ROOT / "vehicle_sim" / name for name in ("EVALUATION.md", "RECONFIGURATION.md")]
 SLOW_DOCUMENTS = [ROOT / "planner/coordination/priorities/README.md"]  # half an hour
-NOT_FOUNDED, BAD_INPUT, NOT_WRITABLE, INTERRUPTED = 1, 2, 3, 130
-
-
-class _Parser(argparse.ArgumentParser):
-    """Errors are one line."""
-
-    def error(self, message: str) -> None:
-        self.exit(BAD_INPUT, f"documents: {message}, see --help\n")
+NOT_FOUNDED = 1
 
 
 def _parse() -> argparse.Namespace:
-    parser = _Parser(
-        prog="documents.sh", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = Parser(
+        prog="documents",
         description="Makes the tables of documents again: drives each command `build/release/bin/... --out runs/NAME` in\n"
                     "them, replaces each table by that of the rows, and names figures in the words that are in no table.",
         epilog="Exit codes: 0 done, 1 a figure in the words is in no table, or a command failed, 2 invalid input,\n"

@@ -1,0 +1,16 @@
+"""Flags of the package's programs."""
+
+import argparse
+
+BAD_INPUT, NOT_WRITABLE, INTERRUPTED = 2, 3, 130
+
+
+class Parser(argparse.ArgumentParser):
+    """Takes whole names only; an error is one line."""
+
+    def __init__(self, prog: str, description: str, epilog: str) -> None:
+        super().__init__(prog=prog, description=description, epilog=epilog, allow_abbrev=False,
+                         formatter_class=argparse.RawDescriptionHelpFormatter)
+
+    def error(self, message: str) -> None:
+        self.exit(BAD_INPUT, f"{self.prog}: {message}, see --help\n")
