@@ -179,9 +179,10 @@ int main(int argc, char** argv) {
   if (code != hlc::kExitGood) return hlc::kExitBadInput;
   const auto run = [&](int id, hlc::time::StopSignals& own_signals) {
     hlc::apps::MessageRecording recording;
-    return recording.close(hlc::apps::run_program(
+    return hlc::apps::run_program(
         program, own_signals, [&] { return make_process(flags, *scenario, id, recording); },
-        [](hlc::process::HlcProcess& process) { process.stop(); }));
+        [](hlc::process::HlcProcess& process) { process.stop(); },
+        [&](int exit_code) { return recording.close(exit_code); });
   };
   return hlc::apps::process_per_vehicle(flags.vehicle_ids, signals, run);
 }

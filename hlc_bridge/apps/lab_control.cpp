@@ -126,7 +126,8 @@ int main(int argc, char** argv) {
                                           hlc::kLabControlName, options.run.period);
     return std::make_shared<hlc::process::LabControlProcess>(options);
   };
-  return recording.close(hlc::apps::run_program(
+  return hlc::apps::run_program(
       hlc::kLabControlName, signals, make,
-      [](hlc::process::LabControlProcess& process) { process.interrupt(); }));
+      [](hlc::process::LabControlProcess& process) { process.interrupt(); },
+      [&](int exit_code) { return recording.close(exit_code); });
 }

@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
         recording.open(flags.network.messages, flags.network.simulated_time, options.node_id);
     return std::make_shared<hlc::process::MiddlewareProcess>(options);
   };
-  return recording.close(
-      hlc::apps::run_program("middleware", signals, make,
-                             [](hlc::process::MiddlewareProcess& process) { process.stop(); }));
+  return hlc::apps::run_program(
+      "middleware", signals, make, [](hlc::process::MiddlewareProcess& process) { process.stop(); },
+      [&](int exit_code) { return recording.close(exit_code); });
 }

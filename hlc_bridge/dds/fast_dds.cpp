@@ -15,6 +15,7 @@
 #include <fastdds/rtps/builtin/data/ParticipantProxyData.h>
 #include <fastdds/rtps/messages/MessageReceiver.h>
 #include <fastdds/rtps/reader/StatefulReader.h>
+#include <fastdds/rtps/reader/StatelessReader.h>
 #include <fastrtps/attributes/LibrarySettingsAttributes.h>
 #include <fastrtps/config.h>
 #include <fastrtps/types/DynamicDataFactory.h>
@@ -66,6 +67,13 @@ struct LibraryFunctions {
       in_library<decltype(fragment)>(
           "_ZN8eprosima8fastrtps4rtps14StatefulReader18processDataFragMsgEPNS1_13CacheChange_"
           "tEjjt");
+  bool (*stateless_data)(StatelessReader*, CacheChange_t*) = in_library<decltype(stateless_data)>(
+      "_ZN8eprosima8fastrtps4rtps15StatelessReader14processDataMsgEPNS1_13CacheChange_tE");
+  bool (*stateless_fragment)(StatelessReader*, CacheChange_t*, std::uint32_t, std::uint32_t,
+                             std::uint16_t) =
+      in_library<decltype(stateless_fragment)>(
+          "_ZN8eprosima8fastrtps4rtps15StatelessReader18processDataFragMsgEPNS1_13CacheChange_"
+          "tEjjt");
 };
 
 const LibraryFunctions& library() {
@@ -113,12 +121,23 @@ std::optional<std::int64_t> last_received(StatefulReader& reader, const GUID_t& 
 }
 
 /// Once per process: whoever forges datagrams would fill the log.
-void log_dropped(const GUID_t& writer, std::int64_t number, std::int64_t last) {
+bool is_first_dropped() {
   static std::atomic_flag is_logged;
-  if (is_logged.test_and_set()) return;
+  return !is_logged.test_and_set();
+}
+
+void log_dropped(const GUID_t& writer, std::int64_t number, std::int64_t last) {
+  if (!is_first_dropped()) return;
   logError(RTPS_READER, "Dropped what declares message "
                             << number << " of writer " << writer << ": the last one received is "
                             << last << ". Further ones are dropped without a line.");
+}
+
+void log_dropped(const CacheChange_t& change) {
+  if (!is_first_dropped()) return;
+  logError(RTPS_READER, "Dropped what declares more bytes than it has, message "
+                            << change.sequenceNumber << " of writer " << change.writerGUID
+                            << ". Further ones are dropped without a line.");
 }
 
 /// @param most  above the last message received, given that one
@@ -141,6 +160,30 @@ bool is_plausible_gap(StatefulReader& reader, const GUID_t& writer, std::int64_t
                           static_cast<std::uint64_t>(longest);
   if (is_short && std::max(begin, end) <= *last + most_announced(*last)) return true;
   log_dropped(writer, std::max(begin, end), *last);
+  return false;
+}
+
+/// The library computes the length in 32 bits without a sign from what the datagram declares: below
+/// 0 it becomes one of nearly 4 GiB, which passes the library's check and is then copied. No
+/// datagram has more than 64 KiB.
+bool has_plausible_length(const CacheChange_t& change) {
+  constexpr std::uint32_t kMost = std::uint32_t{1} << 20U;
+  if (change.serializedPayload.length <= kMost) return true;
+  log_dropped(change);
+  return false;
+}
+
+/// The fragments lie within the message, and the datagram has all their bytes: the library copies
+/// them unseen.
+bool has_its_fragments(const CacheChange_t& change, std::uint64_t sample_size,
+                       std::uint64_t first_fragment, std::uint64_t fragments) {
+  if (!has_plausible_length(change)) return false;
+  const std::uint64_t fragment_size = change.getFragmentSize();
+  const std::uint64_t begin = (first_fragment - 1) * fragment_size;
+  const std::uint64_t end = std::min(begin + fragments * fragment_size, sample_size);
+  if (first_fragment > 0 && begin < end && change.serializedPayload.length >= end - begin)
+    return true;
+  log_dropped(change);
   return false;
 }
 
@@ -180,16 +223,29 @@ bool StatefulReader::processGapMsg(const GUID_t& writer, const SequenceNumber_t&
 
 // After a message with the number 2^62 the library would count all before it as missing.
 bool StatefulReader::processDataMsg(CacheChange_t* change) {
-  if (!is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced))
+  if (!has_plausible_length(*change) ||
+      !is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced))
     return false;
   return library().data(this, change);
 }
 
 bool StatefulReader::processDataFragMsg(CacheChange_t* change, std::uint32_t sample_size,
                                         std::uint32_t first_fragment, std::uint16_t fragments) {
-  if (!is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced))
+  if (!has_its_fragments(*change, sample_size, first_fragment, fragments) ||
+      !is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced))
     return false;
   return library().fragment(this, change, sample_size, first_fragment, fragments);
+}
+
+// Those of discovery.
+bool StatelessReader::processDataMsg(CacheChange_t* change) {
+  return has_plausible_length(*change) && library().stateless_data(this, change);
+}
+
+bool StatelessReader::processDataFragMsg(CacheChange_t* change, std::uint32_t sample_size,
+                                         std::uint32_t first_fragment, std::uint16_t fragments) {
+  return has_its_fragments(*change, sample_size, first_fragment, fragments) &&
+         library().stateless_fragment(this, change, sample_size, first_fragment, fragments);
 }
 
 }  // namespace eprosima::fastrtps::rtps

@@ -166,6 +166,7 @@ int main(int argc, char** argv) {
                        fmt::format("vehicle_sim_{}", fmt::join(flags.vehicle_ids, ",")));
     return std::make_shared<hlc::apps::VehicleProcess>(options);
   };
-  return recording.close(hlc::apps::run_program(
-      "vehicle_sim", signals, make, [](hlc::apps::VehicleProcess& process) { process.stop(); }));
+  return hlc::apps::run_program(
+      "vehicle_sim", signals, make, [](hlc::apps::VehicleProcess& process) { process.stop(); },
+      [&](int exit_code) { return recording.close(exit_code); });
 }

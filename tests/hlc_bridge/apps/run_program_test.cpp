@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include "hlc_bridge/time/signal.hpp"
 
@@ -52,6 +53,18 @@ TEST_F(RunProgramDeathTest, WhatCannotBeMadeIsBadInput) {
 TEST_F(RunProgramDeathTest, WhatFailsInTheRunIsNoBadInput) {
   EXPECT_EXIT(end_with_run([]() -> int { throw std::invalid_argument("the disk is full"); }),
               ExitedWithCode(kExitDied), "blue: failed during the run: the disk is full");
+}
+
+TEST_F(RunProgramDeathTest, AnIncompleteOutputIsInTheExitCodeOfAProcessThatHangsAtItsEnd) {
+  const auto hang_at_the_end = [] {
+    time::StopSignals signals;
+    static_cast<void>(run_program(
+        "blue", signals, [] { return std::make_shared<FakeProcess>([] { return kExitGood; }); },
+        [](FakeProcess&) {},
+        [](int exit_code) { return exit_code_with_outputs(exit_code, false); }));
+    std::this_thread::sleep_for(std::chrono::minutes{1});
+  };
+  EXPECT_EXIT(hang_at_the_end(), ExitedWithCode(kExitNotWritten), "");
 }
 
 TEST_F(RunProgramDeathTest, ASignalStopsTheProcess) {

@@ -82,6 +82,29 @@ Bytes data(unsigned char kind, const Bytes& writer, std::uint64_t number) {
   return bytes;
 }
 
+/// The same without any room for a message: `skipped` bytes before it are more than the submessage
+/// has, so that its length is below 0.
+Bytes data_of_negative_length(unsigned char kind, const Bytes& writer, std::uint64_t number) {
+  constexpr unsigned char kSkipped = 40;
+  const bool is_fragment = kind == 0x16;
+  Bytes bytes = data(kind, writer, number);
+  bytes[2] = is_fragment ? 36 : 24;  // length of the submessage
+  bytes[6] = static_cast<unsigned char>(bytes[6] + kSkipped);
+  bytes.resize(bytes.size() + kSkipped);
+  return bytes;
+}
+
+/// The only fragment of a message of 30 000 bytes, of which it has 8.
+std::vector<Bytes> short_fragment(const Bytes& writer, std::uint64_t next) {
+  Bytes bytes = data(0x16, writer, next);
+  constexpr std::size_t kSizeOfFragment = 30;
+  for (const std::size_t at : {kSizeOfFragment, kSizeOfFragment + 2}) {
+    bytes[at] = 30'000 & 0xff;
+    bytes[at + 1] = 30'000 >> 8;
+  }
+  return {bytes};
+}
+
 /// A hundred heartbeats or gaps, each up to `step` more messages than the one before. Gaps from
 /// message `begin`, or, if that is 0, each from the end of the one before.
 std::vector<Bytes> hundred(unsigned char kind, const Bytes& writer, std::uint64_t next,
@@ -131,6 +154,22 @@ INSTANTIATE_TEST_SUITE_P(
             [](const Bytes& writer, Number /*next*/) {
               return std::vector<Bytes>{data(0x16, writer, kLarge), data(0x16, writer, kLarge + 5)};
             }},
+        Forged{"DataOfNegativeLength",
+               [](const Bytes& writer, Number next) {
+                 return std::vector<Bytes>{data_of_negative_length(0x15, writer, next)};
+               }},
+        Forged{"FragmentOfNegativeLength",
+               [](const Bytes& writer, Number next) {
+                 return std::vector<Bytes>{data_of_negative_length(0x16, writer, next)};
+               }},
+        Forged{"FragmentShorterThanItsSize", short_fragment},
+        // To the readers for discovery, which do not match their writers.
+        Forged{"DiscoveryOfNegativeLength",
+               [](const Bytes& /*writer*/, Number next) {
+                 const Bytes discovery{0, 1, 0, 0xc2};
+                 return std::vector<Bytes>{data_of_negative_length(0x15, discovery, next),
+                                           data_of_negative_length(0x16, discovery, next)};
+               }},
         Forged{"HundredHeartbeatsEachFarAboveTheLast",
                [](const Bytes& writer, Number next) {
                  return hundred(0x07, writer, next, (Number{1} << 24U) - 300);

@@ -59,7 +59,12 @@ constexpr std::array kReplaced{
              "_ZN8eprosima8fastrtps4rtps14StatefulReader14processDataMsgEPNS1_13CacheChange_tE"},
     Replaced{
         "Fragment",
-        "_ZN8eprosima8fastrtps4rtps14StatefulReader18processDataFragMsgEPNS1_13CacheChange_tEjjt"}};
+        "_ZN8eprosima8fastrtps4rtps14StatefulReader18processDataFragMsgEPNS1_13CacheChange_tEjjt"},
+    Replaced{"StatelessData",
+             "_ZN8eprosima8fastrtps4rtps15StatelessReader14processDataMsgEPNS1_13CacheChange_tE"},
+    Replaced{"StatelessFragment",
+             "_ZN8eprosima8fastrtps4rtps15StatelessReader18processDataFragMsgEPNS1_13CacheChange_"
+             "tEjjt"}};
 
 INSTANTIATE_TEST_SUITE_P(FastDds, ReplacedFunctions, testing::ValuesIn(kReplaced),
                          [](const auto& one) { return std::string(one.param.name); });
