@@ -196,10 +196,12 @@ class Asker {
         asked_(flags.vehicles.begin(), flags.vehicles.end()),
         participant_(participant_options(flags), [this] { signal_.notify(); }),
         writer_(participant_, hlc::dds::topics::automaton_request(), [this] { signal_.notify(); }),
-        reader_(participant_, hlc::dds::topics::automaton_answer(),
-                [this](const hlc::AutomatonAnswer& answer) {
-                  signal_.post([&] { answers_.push_back(answer); });
-                }) {}
+        reader_(
+            participant_, hlc::dds::topics::automaton_answer(),
+            [this](const hlc::AutomatonAnswer& answer) {
+              signal_.post([&] { answers_.push_back(answer); });
+            },
+            {}, hlc::dds::kItsController) {}
 
   int run() {
     if (!find_controllers()) return hlc::kExitMissing;

@@ -4,15 +4,6 @@
 #include <utility>
 
 namespace hlc::dds {
-namespace {
-
-ParticipantKey key_of(const frtps::GUID_t& guid) {
-  ParticipantKey key{};
-  std::copy(std::begin(guid.guidPrefix.value), std::end(guid.guidPrefix.value), key.begin());
-  return key;
-}
-
-}  // namespace
 
 EndpointPeers::EndpointPeers(ParticipantCore& core, PeerKind kind, std::string topic,
                              std::function<void()> on_change)
@@ -56,7 +47,8 @@ void EndpointPeers::notify() {
 std::set<std::string> EndpointPeers::names_in(const Presence& presence) const {
   std::set<std::string> names;
   for (const frtps::GUID_t& peer : peers_) {
-    for (std::string& name : presence.names_of(key_of(peer))) names.insert(std::move(name));
+    for (std::string& name : presence.names_of(key_of(peer.guidPrefix)))
+      names.insert(std::move(name));
   }
   return names;
 }

@@ -15,12 +15,6 @@
 namespace hlc::dds {
 namespace {
 
-ParticipantKey key_of(const frtps::GuidPrefix_t& prefix) {
-  ParticipantKey key{};
-  std::copy(std::begin(prefix.value), std::end(prefix.value), key.begin());
-  return key;
-}
-
 [[noreturn]] void refuse(const ParticipantOptions& options, const std::string& what) {
   throw std::runtime_error(
       fmt::format("participant {} on domain {}: {}", options.name, options.domain_id, what));
@@ -43,6 +37,12 @@ void check_free_descriptors(const ParticipantOptions& options) {
 }
 
 }  // namespace
+
+ParticipantKey key_of(const frtps::GuidPrefix_t& prefix) {
+  ParticipantKey key{};
+  std::copy(std::begin(prefix.value), std::end(prefix.value), key.begin());
+  return key;
+}
 
 ParticipantCore::ParticipantCore(const ParticipantOptions& options,
                                  std::function<void()> on_presence_change)

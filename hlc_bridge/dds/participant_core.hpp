@@ -20,6 +20,8 @@ namespace hlc::dds {
 
 class EndpointPeers;
 
+[[nodiscard]] ParticipantKey key_of(const frtps::GuidPrefix_t& prefix);
+
 /// The other end of a match.
 enum class PeerKind : std::uint8_t { kReader, kWriter };
 

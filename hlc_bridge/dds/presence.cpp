@@ -25,6 +25,11 @@ void Presence::left(const ParticipantKey& key) {
   }
   const std::vector<std::string> left = found->second;
   names_.erase(found);
+  if (former_names_.insert_or_assign(key, left).second) former_.push_back(key);
+  if (former_.size() > kMostFormer) {
+    former_names_.erase(former_.front());
+    former_.pop_front();
+  }
   versions_.erase(key);
   for (const std::string& name : left) {
     const bool still_there = std::ranges::any_of(
@@ -46,6 +51,13 @@ std::map<std::string, std::string> Presence::versions() const {
 std::vector<std::string> Presence::names_of(const ParticipantKey& key) const {
   const auto found = names_.find(key);
   return found == names_.end() ? std::vector<std::string>{} : found->second;
+}
+
+const std::vector<std::string>* Presence::last_names_of(const ParticipantKey& key) const {
+  const auto present = names_.find(key);
+  if (present != names_.end()) return &present->second;
+  const auto former = former_names_.find(key);
+  return former == former_names_.end() ? nullptr : &former->second;
 }
 
 }  // namespace hlc::dds

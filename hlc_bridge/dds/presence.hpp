@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <set>
 #include <string>
@@ -30,9 +31,16 @@ class Presence {
   [[nodiscard]] std::map<std::string, std::string> versions() const;
   /// None if that participant is not present.
   [[nodiscard]] std::vector<std::string> names_of(const ParticipantKey& key) const;
+  /// Also of a participant that has left, since its last messages may be read later; none if it
+  /// never was present, or if more than kMostFormer have left since.
+  [[nodiscard]] const std::vector<std::string>* last_names_of(const ParticipantKey& key) const;
+
+  static constexpr std::size_t kMostFormer = 1000;
 
  private:
   std::map<ParticipantKey, std::vector<std::string>> names_;
+  std::map<ParticipantKey, std::vector<std::string>> former_names_;
+  std::deque<ParticipantKey> former_;  ///< of former_names_, in the order in which they left
   std::map<ParticipantKey, std::string> versions_;
   std::set<std::string> alive_;
   std::set<std::string> lost_;

@@ -4,21 +4,23 @@
 
 #include "hlc_bridge/dds/endpoint_qos.hpp"
 #include "hlc_bridge/dds/reader_endpoint.hpp"
+#include "hlc_bridge/dds/sender_check.hpp"
 #include "hlc_bridge/dds/wire.hpp"
 
 namespace hlc::dds {
 namespace {
 
-// Converts, passes on the valid message, returns the number of invalid entries.
+// Converts, and passes on what is valid and of its sender.
 template <class Message>
-std::function<std::uint64_t(const void*)> converting(
-    std::function<void(const Message&)> on_message) {
-  return [on_message = std::move(on_message)](const void* sample) {
+auto converting(std::function<void(const Message&)> on_message, SenderOf<Message> sender,
+                SenderCheck check) {
+  return [on_message = std::move(on_message), sender = std::move(sender), check = std::move(check)](
+             const void* sample, const frtps::GUID_t& writer) mutable -> ReaderEndpoint::Fault {
     const auto incoming = from_wire(*static_cast<const typename Wire<Message>::Type*>(sample));
-    if (incoming.message) {
-      on_message(*incoming.message);
-    }
-    return incoming.invalid;
+    if (!incoming.message) return {.invalid = incoming.invalid};
+    if (sender && !check.accepts(writer, sender(*incoming.message))) return {.is_of_another = true};
+    on_message(*incoming.message);
+    return {.invalid = incoming.invalid};
   };
 }
 
@@ -27,11 +29,13 @@ std::function<std::uint64_t(const void*)> converting(
 template <class Message>
 Reader<Message>::Reader(Participant& participant, const Topic<Message>& topic,
                         std::function<void(const Message&)> on_message,
-                        std::function<void()> on_matched_change)
+                        std::function<void()> on_matched_change, SenderOf<Message> sender)
     : endpoint_{std::make_unique<ReaderEndpoint>(
           participant.core(), topic.name, type_support<Message>(participant.options().transport),
           topic_qos(topic.id, participant.options().role, participant.options().transport).reader,
-          converting<Message>(std::move(on_message)), std::move(on_matched_change))} {}
+          converting<Message>(std::move(on_message), std::move(sender),
+                              SenderCheck{participant.core(), topic.name}),
+          std::move(on_matched_change))} {}
 
 template <class Message>
 Reader<Message>::~Reader() = default;
@@ -61,6 +65,11 @@ bool Reader<Message>::wait_for_matched(const std::set<std::string>& names,
 template <class Message>
 std::uint64_t Reader<Message>::dropped() const {
   return endpoint_->dropped();
+}
+
+template <class Message>
+std::uint64_t Reader<Message>::of_others() const {
+  return endpoint_->of_others();
 }
 
 template <class Message>

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "hlc_bridge/dds/participant.hpp"
+#include "hlc_bridge/dds/sender.hpp"
 #include "hlc_bridge/dds/topics.hpp"
 
 namespace hlc::dds {
@@ -25,11 +26,12 @@ class Reader {
   /// `on_message` is called on a DDS thread, one call at a time, possibly before the constructor
   /// has returned, and never after the destructor. It must only queue and notify (Signal::post): no
   /// write, no wait, no creation or destruction of an endpoint. The same holds for
-  /// `on_matched_change`, called after a change of matched(). Throws std::invalid_argument if the
+  /// `on_matched_change`, called after a change of matched(). `sender`: who alone may publish the
+  /// messages. Throws std::invalid_argument if the
   /// topic does not belong on the participant's domain, std::runtime_error if the library refuses.
   Reader(Participant& participant, const Topic<Message>& topic,
          std::function<void(const Message&)> on_message,
-         std::function<void()> on_matched_change = {});
+         std::function<void()> on_matched_change = {}, SenderOf<Message> sender = {});
   /// Waits for a running callback: not to be called with a lock held that a callback takes.
   ~Reader();
   Reader(const Reader&) = delete;
@@ -48,6 +50,8 @@ class Reader {
 
   /// Invalid messages dropped so far.
   [[nodiscard]] std::uint64_t dropped() const;
+  /// Messages dropped so far since they were not published by their sender.
+  [[nodiscard]] std::uint64_t of_others() const;
   /// Messages that the history could not hold or the transport lost (reliable topics: should stay
   /// 0).
   [[nodiscard]] std::uint64_t lost() const;

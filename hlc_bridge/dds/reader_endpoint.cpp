@@ -9,7 +9,7 @@ namespace hlc::dds {
 
 ReaderEndpoint::ReaderEndpoint(std::shared_ptr<ParticipantCore> core, const std::string& topic,
                                const fdds::TypeSupport& type, const EndpointQos& qos,
-                               std::function<std::uint64_t(const void* sample)> on_sample,
+                               std::function<Fault(const void*, const frtps::GUID_t&)> on_sample,
                                std::function<void()> on_matched_change)
     : core_{std::move(core)},
       type_{type},
@@ -38,11 +38,12 @@ void ReaderEndpoint::on_data_available(fdds::DataReader* reader) {
                                        [this](void* data) { type_.delete_data(data); }};
     fdds::SampleInfo info;
     while (is_ok(reader->take_next_sample(sample.get(), &info))) {
-      if (info.valid_data && !core_->is_own(frtps::iHandle2GUID(info.publication_handle))) {
-        const std::uint64_t invalid = on_sample_(sample.get());
-        if (invalid > 0 && dropped_.fetch_add(invalid) == 0) {
-          log(*reader, "invalid content received and dropped (logged once)");
-        }
+      const frtps::GUID_t writer = frtps::iHandle2GUID(info.publication_handle);
+      if (!info.valid_data || core_->is_own(writer)) continue;
+      const Fault fault = on_sample_(sample.get(), writer);
+      if (fault.is_of_another) ++of_others_;
+      if (fault.invalid > 0 && dropped_.fetch_add(fault.invalid) == 0) {
+        log(*reader, "invalid content received and dropped (logged once)");
       }
     }
   });

@@ -14,11 +14,17 @@ namespace hlc::dds {
 /// A Fast DDS reader of any type. Only sources of this folder include this file.
 class ReaderEndpoint : private fdds::DataReaderListener {
  public:
-  /// `on_sample(sample)`: `sample` is of the type's generated class; returns the number of invalid
-  /// entries found.
+  /// What is wrong with a sample: its number of invalid entries, and that it may not be of its
+  /// publisher.
+  struct Fault {
+    std::uint64_t invalid{};
+    bool is_of_another{};
+  };
+
+  /// `on_sample(sample, writer)`: `sample` is of the type's generated class.
   ReaderEndpoint(std::shared_ptr<ParticipantCore> core, const std::string& topic,
                  const fdds::TypeSupport& type, const EndpointQos& qos,
-                 std::function<std::uint64_t(const void* sample)> on_sample,
+                 std::function<Fault(const void* sample, const frtps::GUID_t& writer)> on_sample,
                  std::function<void()> on_matched_change);
   ~ReaderEndpoint() override;
   ReaderEndpoint(const ReaderEndpoint&) = delete;
@@ -26,6 +32,7 @@ class ReaderEndpoint : private fdds::DataReaderListener {
 
   [[nodiscard]] const EndpointPeers& peers() const { return *peers_; }
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+  [[nodiscard]] std::uint64_t of_others() const { return of_others_; }
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
 
  private:
@@ -40,9 +47,10 @@ class ReaderEndpoint : private fdds::DataReaderListener {
 
   std::shared_ptr<ParticipantCore> core_;
   fdds::TypeSupport type_;
-  std::function<std::uint64_t(const void*)> on_sample_;
+  std::function<Fault(const void*, const frtps::GUID_t&)> on_sample_;
   Gate gate_;
   std::atomic<std::uint64_t> dropped_{};
+  std::atomic<std::uint64_t> of_others_{};
   std::atomic<std::uint64_t> lost_{};
   std::shared_ptr<EndpointPeers> peers_;
   fdds::DataReader* reader_{};

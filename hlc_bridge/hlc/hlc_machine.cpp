@@ -59,7 +59,7 @@ void HlcMachine::take(const SystemTrigger& trigger) {
 }
 
 void HlcMachine::take(const RunState& state) {
-  life_.receive(state);
+  life_.receive(state, actions_);
   start_.receive(state);
 }
 
@@ -111,7 +111,7 @@ bool HlcMachine::go_on(const Instant& now) {
 bool HlcMachine::ends(const Instant& now) {
   ending_.code =
       ending_.is_asked
-          ? std::optional{kExitGood}
+          ? std::optional{life_.is_stopped_for_good() ? kExitDied : kExitGood}
           : life_.exit_code(now.wall, phase_ == Phase::kIdle && !lists_.empty(), actions_);
   if (ending_.code == kExitGood && !ending_.unwritten.empty()) {
     actions_.error(ending_.unwritten);  // repeated as the last line of the log

@@ -26,6 +26,13 @@ void LifeCycle::receive(const HlcPeers& peers) {
   stop_request_readers_ = peers.stop_request_readers;
 }
 
+void LifeCycle::receive(const RunState& state, HlcActions& actions) {
+  if (state.phase != RunPhase::kMinimalRiskStop || minimal_risk_stop_) return;
+  minimal_risk_stop_ = true;
+  actions.warn(std::string(kLabControlName) +
+               " demands a minimal-risk stop: driving the plan in force to its end");
+}
+
 void LifeCycle::receive_list(Nanoseconds wall) {
   last_list_at_ = wall;
   list_notice_ = machine::WaitNotice{wall};

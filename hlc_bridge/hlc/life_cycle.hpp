@@ -30,9 +30,8 @@ class LifeCycle {
   LifeCycle(VehicleId vehicle, const HlcRules& rules, Nanoseconds startup_timeout);
 
   void receive(const HlcPeers& peers);
-  void receive(const RunState& state) {
-    minimal_risk_stop_ |= state.phase == RunPhase::kMinimalRiskStop;
-  }
+  /// A minimal-risk stop is final: it is logged, and the process then ends with kExitDied.
+  void receive(const RunState& state, HlcActions& actions);
   /// An answer of the lab control.
   void receive(const Parameter& /*answer*/) { lab_control_.receive_answer(); }
   /// A list was received. @param wall  now
@@ -45,6 +44,8 @@ class LifeCycle {
   [[nodiscard]] bool is_minimal_risk_stop() const {
     return minimal_risk_stop_ || lab_control_.is_lost();
   }
+  /// By order of the lab control: the run has failed.
+  [[nodiscard]] bool is_stopped_for_good() const { return minimal_risk_stop_; }
   [[nodiscard]] bool has_stop_request_readers() const { return stop_request_readers_ > 0; }
 
   /// Whether the controller is ready now. @param has_started  the experiment has (ExperimentStart)

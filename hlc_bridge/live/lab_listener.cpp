@@ -30,13 +30,19 @@ LabListener::LabListener(const ListenerOptions& options)
     : vehicle_ids_(options.vehicle_ids),
       lab_(participant_options(options, dds::DomainRole::kLab)),
       controllers_(participant_options(options, dds::DomainRole::kController)),
-      reports_(controllers_, dds::topics::report(), [this](const ReportRecord& record) {
-        signal_.post([&] { received_.reports.push_back(record); });
-      }) {
+      reports_(
+          controllers_, dds::topics::report(),
+          [this](const ReportRecord& record) {
+            signal_.post([&] { received_.reports.push_back(record); });
+          },
+          {}, dds::kItsController) {
   for (const std::uint8_t id : vehicle_ids_) {
-    states_.emplace_back(lab_, dds::topics::vehicle_state(id), [this](const VehicleState& state) {
-      signal_.post([&] { received_.states.push_back(state); });
-    });
+    states_.emplace_back(
+        lab_, dds::topics::vehicle_state(id),
+        [this](const VehicleState& state) {
+          signal_.post([&] { received_.states.push_back(state); });
+        },
+        nullptr, dds::only(vehicle_name(id)));
   }
 }
 

@@ -99,6 +99,12 @@ class Loop {
 
   [[nodiscard]] const M& machine() const { return machine_; }
 
+  /// A line of the owner's. For the thread of `iterate`.
+  template <class Host>
+  void log(Host& host, const LogLine& line) const {
+    host.perform(line);
+  }
+
  private:
   /// Logical time: announces the wanted tick, unless the lab control is not responding.
   template <class Host, class Locked>

@@ -22,6 +22,12 @@ inline constexpr Nanoseconds kMostLead = kNanosecondsPerSecond;
   return !now.has_begun || stamp <= now.run || stamp - now.run <= kMostLead + period;
 }
 
+/// False if the id of a request for a subgraph, which is the time of the request, lies more than
+/// kMostLead ahead of the real clock: every later request would be stale.
+[[nodiscard]] constexpr bool is_plausible_request_id(std::uint64_t id, Nanoseconds real_now) {
+  return id <= real_now || id - real_now <= kMostLead;
+}
+
 /// A corner of a received area may lie this much inside the line through its neighbours: above the
 /// rounding of our own areas, rotated and far from the origin, and below every relevant length.
 inline constexpr double kConvexTolerance_m = 1e-6;

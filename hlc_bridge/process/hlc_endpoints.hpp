@@ -45,7 +45,7 @@ struct HlcWriters {
 struct HlcReaders {
   /// @param rules  stops_on_lab_domain, asks_lab_control: what is read on the lab domain
   HlcReaders(HlcDomains& domains, Shell<high_level_controller::HlcMachine>& shell,
-             const high_level_controller::HlcRules& rules);
+             const high_level_controller::HlcRules& rules, VehicleId vehicle);
 
   dds::Reader<coordination::Traffic> traffic;
   dds::Reader<coordination::Prediction> prediction;

@@ -57,7 +57,7 @@ HlcProcess::HlcProcess(HlcProcessOptions options,
                    [this](high_level_controller::PreparedRequest prepared) {
                      shell_.post_urgent(std::move(prepared));
                    }),
-      readers_(domains_, shell_, options_.rules) {}
+      readers_(domains_, shell_, options_.rules, vehicle_) {}
 
 dds::ParticipantOptions HlcProcess::on_domain(std::optional<int> domain, dds::DomainRole role) {
   return {

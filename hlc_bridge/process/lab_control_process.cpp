@@ -73,10 +73,12 @@ LabControlProcess::LabControlProcess(LabControlOptions options)
                     [this](const ReadyStatus& status) { shell_.post(status); }),
       request_reader_(lab_, dds::topics::parameter_request(),
                       [this](const ParameterRequest& request) { shell_.post(request); }),
-      stop_reader_(lab_, dds::topics::stop_request(),
-                   [this](const StopRequest& request) { shell_.post(request); }),
-      report_reader_(controllers_, dds::topics::report(),
-                     [this](const ReportRecord& record) { shell_.post(record); }) {
+      stop_reader_(
+          lab_, dds::topics::stop_request(),
+          [this](const StopRequest& request) { shell_.post(request); }, {}, dds::kItsController),
+      report_reader_(
+          controllers_, dds::topics::report(),
+          [this](const ReportRecord& record) { shell_.post(record); }, {}, dds::kItsController) {
   if (shell_.machine().run().awaits_states()) listen_to_vehicles();
   record_facts();
 }
@@ -85,10 +87,12 @@ LabControlProcess::LabControlProcess(LabControlOptions options)
 /// state counts, since a vehicle may leave and come back; later ones have no effect.
 void LabControlProcess::listen_to_vehicles() {
   for (const std::uint8_t id : options_.run.vehicle_ids) {
-    state_readers_.try_emplace(id, lab_, dds::topics::vehicle_state(id),
-                               [this](const VehicleState& state) {
-                                 if (is_gathering_) shell_.post(state);
-                               });
+    state_readers_.try_emplace(
+        id, lab_, dds::topics::vehicle_state(id),
+        [this](const VehicleState& state) {
+          if (is_gathering_) shell_.post(state);
+        },
+        nullptr, dds::only(vehicle_name(id)));
   }
 }
 

@@ -74,7 +74,7 @@ struct MiddlewareProcess::LabEndpoints {
                                 [&process](const Command& command) {
                                   process.shell_.post_urgent(middleware::VehicleCommand{command});
                                 },
-                                process.on_presence()};
+                                process.on_presence(), dds::kItsController};
   }
 
   [[nodiscard]] bool commands_are_sent() const {
@@ -92,11 +92,14 @@ struct MiddlewareProcess::LabEndpoints {
 MiddlewareProcess::LabControlEndpoints::LabControlEndpoints(MiddlewareProcess& process)
     : ready(process.lab_, dds::topics::ready_status(), process.on_presence()),
       request(process.lab_, dds::topics::parameter_request()),
-      parameter(process.lab_, dds::topics::parameter(),
-                [&process](const Parameter& one) { process.shell_.post(one); }),
+      parameter(
+          process.lab_, dds::topics::parameter(),
+          [&process](const Parameter& one) { process.shell_.post(one); }, {},
+          dds::only_on_loopback<Parameter>(process.options_.transport, kLabControlName)),
       trigger(
           process.lab_, dds::topics::system_trigger(),
-          [&process](const SystemTrigger& one) { process.receive(one); }, process.on_presence()) {}
+          [&process](const SystemTrigger& one) { process.receive(one); }, process.on_presence(),
+          dds::only_on_loopback<SystemTrigger>(process.options_.transport, kLabControlName)) {}
 
 MiddlewareProcess::ControllerEndpoints::ControllerEndpoints(MiddlewareProcess& process)
     : list(process.local_, dds::topics::vehicle_state_list(), process.on_presence()),
@@ -106,7 +109,7 @@ MiddlewareProcess::ControllerEndpoints::ControllerEndpoints(MiddlewareProcess& p
           [&process](const TrajectoryCommand& one) {
             process.shell_.post_urgent(middleware::VehicleCommand{one});
           },
-          process.on_presence()),
+          process.on_presence(), dds::kItsController),
       ready(
           process.local_, dds::topics::ready_status(),
           [&process](const ReadyStatus& status) { process.shell_.post(status); },
@@ -153,7 +156,7 @@ void MiddlewareProcess::perform(const middleware::SubscribeToVehicles& vehicles)
         [this, id](const VehicleState& state) {
           shell_.post(middleware::PublishedState{.vehicle_id = id, .state = state});
         },
-        on_presence());
+        on_presence(), dds::only(vehicle_name(id)));
     if (lab_endpoints_) {
       lab_endpoints_->observations.try_emplace(id, lab_, dds::topics::vehicle_observation(id),
                                                [this, id](const VehicleObservation& observation) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,6 +67,7 @@ class Shell {
     const auto locked = [this](const auto& access) { return signal_.locked(access); };
     while (true) {
       if (const std::optional<int> code = loop_.iterate(host, clocks_now, locked)) return *code;
+      watch_system_clock(host);
       wait();
     }
   }
@@ -75,7 +77,19 @@ class Shell {
 
  private:
   [[nodiscard]] static Instant clocks_now() {
-    return {.run = time::real_time_now(), .wall = time::wall_time_now()};
+    const time::SteadyRealTime& real_time = time::steady_real_time();
+    const Nanoseconds wall = time::wall_time_now();
+    return {.run = real_time.at(wall), .wall = wall};
+  }
+
+  template <class Host>
+  void watch_system_clock(Host& host) {
+    const auto step = system_clock_.new_step(time::steady_real_time().system_step());
+    if (!step) return;
+    loop_.log(host, machine::warning("the system's clock was set " +
+                                     std::string(*step < 0 ? "back" : "forth") + " by " +
+                                     std::to_string(std::abs(*step) / 1'000'000) +
+                                     " ms; this process goes on by its own"));
   }
 
   void wait() const {
@@ -86,11 +100,8 @@ class Shell {
     const auto has_work = [this] { return loop_.has_work(); };
     Nanoseconds until = clocks.wall + delay.value_or(kLongestWait);
     until = std::min(until, wake.wall.value_or(until));
-    if (wake.run && time_left(*wake.run, clocks.run) <= time_left(until, clocks.wall)) {
-      static_cast<void>(signal_.wait_until(time::real_time_point(*wake.run), has_work));
-    } else {
-      static_cast<void>(signal_.wait_until(time::wall_time_point(until), has_work));
-    }
+    if (wake.run) until = std::min(until, clocks.wall + time_left(*wake.run, clocks.run));
+    static_cast<void>(signal_.wait_until(time::wall_time_point(until), has_work));
   }
 
   [[nodiscard]] static Nanoseconds time_left(Nanoseconds until, Nanoseconds now) {
@@ -100,6 +111,7 @@ class Shell {
   /// Only a bound for an interruptible wait.
   static constexpr Nanoseconds kLongestWait = 3600 * kNanosecondsPerSecond;
 
+  time::SystemClockWatch system_clock_;
   time::Signal signal_;  ///< its lock guards the loop's mailbox
   machine::Loop<M> loop_;
 };

@@ -60,8 +60,7 @@ class Signal {
   }
 
   /// Waits until `condition` (evaluated under the lock) holds, at most until `deadline`; returns
-  /// the condition's last value. Deadlines of the run's real time use std::chrono::system_clock,
-  /// watchdogs steady_clock.
+  /// the condition's last value.
   template <class TimePoint, class Condition>
   [[nodiscard]] bool wait_until(const TimePoint& deadline, Condition&& condition) const {
     const std::function<bool()> holds{std::ref(condition)};

@@ -72,7 +72,8 @@ struct VehicleProcess::Vehicle {
         [&process, id](const Command& command) {
           process.shell_.post(OfVehicle<VehicleMachine::Event>{id, command});
         },
-        on_presence(process));
+        on_presence(process),
+        dds::only_on_loopback<Command>(process.options_.transport, middleware_name(id)));
   }
 
   void perform(const ParameterRequest& /*request*/) {}  // the fleet's
@@ -117,15 +118,18 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
            [this] { shell_.presence_changed(); }),
       ready_writer_(lab_, dds::topics::ready_status(), [this] { shell_.presence_changed(); }),
       request_writer_(lab_, dds::topics::parameter_request()),
-      parameter_reader_(lab_, dds::topics::parameter(),
-                        [this](const Parameter& parameter) { shell_.post(parameter); }),
+      parameter_reader_(
+          lab_, dds::topics::parameter(),
+          [this](const Parameter& parameter) { shell_.post(parameter); }, {},
+          dds::only_on_loopback<Parameter>(options_.transport, kLabControlName)),
       trigger_reader_(
           lab_, dds::topics::system_trigger(),
           [this](const SystemTrigger& trigger) {
             shell_.trigger(trigger.next_start);
             if (trigger.next_start == kStopSymbol) shell_.post_urgent(trigger);
           },
-          [this] { shell_.presence_changed(); }) {
+          [this] { shell_.presence_changed(); },
+          dds::only_on_loopback<SystemTrigger>(options_.transport, kLabControlName)) {
   for (std::size_t i = 0; i < options_.vehicles.size(); ++i) {
     vehicles_.emplace(options_.vehicles[i].vehicle_id, std::make_unique<Vehicle>(*this, i));
   }

@@ -50,8 +50,8 @@ bool runs(pid_t pid) {
 class TwoControllers : public testing::Test {
  protected:
   TwoControllers()
-      : participant_(dds::on_loopback("ParticipantSingleton", domains_.first() + 1,
-                                      dds::DomainRole::kLocal)),
+      : participant_(
+            dds::on_loopback("middleware_1,2", domains_.first() + 1, dds::DomainRole::kLocal)),
         lists_(participant_, dds::topics::vehicle_state_list()),
         commands_(participant_, dds::topics::command()),
         ready_(participant_, dds::topics::ready_status()),

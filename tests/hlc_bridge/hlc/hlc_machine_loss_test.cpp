@@ -63,6 +63,21 @@ TEST(HlcMachineLoss, LeavesWithoutItsMiddlewareAtOnceWhenEverybodyDrivesOutOrTim
   EXPECT_EQ(other.exit_code(), kExitDied);
 }
 
+// A forged demand stopped all vehicles for good with exit code 0 and without a line.
+TEST(HlcMachineLoss, LogsADemandedMinimalRiskStopOnceAndFailsWithTheRun) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  start(one);
+  one.forget();
+  one.on(RunState{.phase = RunPhase::kMinimalRiskStop});
+  EXPECT_TRUE(one.has_logged("lab_control demands a minimal-risk stop"));
+  one.forget();
+  one.on(RunState{.phase = RunPhase::kMinimalRiskStop});
+  EXPECT_FALSE(one.has_logged("lab_control demands a minimal-risk stop"));
+  one.on(SystemTrigger{.next_start = kStopSymbol});
+  EXPECT_EQ(one.exit_code(), kExitDied);
+}
+
 TEST(HlcMachineLoss, DrivesOutWithoutLabControlAndPlansOnWhenItIsBackInTime) {
   DrivenMachine one(real_time());
   one.on(peers());

@@ -16,6 +16,16 @@ namespace {
 constexpr Nanoseconds kPeriod = 200 * kNanosecondsPerMillisecond;
 constexpr Nanoseconds kLast = ~Nanoseconds{};
 
+TEST(RequestId, MayNotBeATimeOfTheFuture) {
+  constexpr Nanoseconds kNow = 1'000 * kNanosecondsPerSecond;
+  for (const std::uint64_t id : {std::uint64_t{0}, kNow, kNow + kMostLead}) {
+    EXPECT_TRUE(is_plausible_request_id(id, kNow)) << id;
+  }
+  for (const std::uint64_t id : {kNow + kMostLead + 1, std::numeric_limits<std::uint64_t>::max()}) {
+    EXPECT_FALSE(is_plausible_request_id(id, kNow)) << id;
+  }
+}
+
 TEST(PlausibleStamp, LiesAtMostASecondAndAPeriodAhead) {
   const Instant now{.run = 5 * kNanosecondsPerSecond};
   for (const Nanoseconds stamp : {Nanoseconds{0}, now.run, now.run + kMostLead + kPeriod}) {

@@ -59,7 +59,7 @@ VehicleStateList list_of_now() {
 /// The endpoints of a middleware on the local domain, and nothing behind them.
 struct MiddlewareEndpoints {
   explicit MiddlewareEndpoints(int domain)
-      : participant{dds::on_loopback("ParticipantSingleton", domain, dds::DomainRole::kLocal)},
+      : participant{dds::on_loopback(middleware_name(1), domain, dds::DomainRole::kLocal)},
         lists{participant, dds::topics::vehicle_state_list()},
         triggers{participant, dds::topics::system_trigger()},
         commands{participant, dds::topics::command()},
@@ -72,10 +72,10 @@ struct MiddlewareEndpoints {
   dds::Mailbox<ReadyStatus> ready;
 };
 
-/// Those of the lab's control centre, which has the name of all the lab's programs.
+/// Those of the lab's control centre, with the name that alone counts on loopback.
 struct CentreEndpoints {
   explicit CentreEndpoints(int domain)
-      : participant{dds::on_loopback("ParticipantSingleton", domain, dds::DomainRole::kLab)},
+      : participant{dds::on_loopback(kLabControlName, domain, dds::DomainRole::kLab)},
         triggers{participant, dds::topics::system_trigger()},
         level{participant, dds::topics::log_level()},
         log{participant, dds::topics::log()} {
@@ -206,6 +206,25 @@ TEST_F(HlcProcessTest, TakesTheStopAndNothingElseFromTheLabDomain) {
   middleware = nullptr;
   centre.triggers.write({.next_start = kStopSymbol});
   EXPECT_EQ(exit_code(), kExitGood);
+}
+
+// After a request with the largest id every later one was stale.
+TEST_F(HlcProcessTest, ARequestOfTheFutureIsDroppedAndLaterOnesCount) {
+  MiddlewareEndpoints middleware{local()};
+  dds::Participant user{dds::on_loopback("operator", controllers(), dds::DomainRole::kController)};
+  dds::Writer<AutomatonRequest> requests{user, dds::topics::automaton_request()};
+  dds::Mailbox<AutomatonAnswer> answers{user, dds::topics::automaton_answer()};
+  ASSERT_TRUE(gets_ready(middleware));
+  ASSERT_TRUE(requests.wait_for_matched(1, dds::soon()) &&
+              answers.reader().wait_for_matched(1, dds::soon()));
+  const std::uint64_t now = time::real_time_now();
+  requests.write({.vehicle = {1}, .id = std::numeric_limits<std::uint64_t>::max()});
+  requests.write({.vehicle = {1}, .id = now});
+  ASSERT_TRUE(comes_to(middleware, [&] { return !answers.now().empty(); }));
+  for (const AutomatonAnswer& answer : answers.now()) {
+    EXPECT_EQ(answer.id, now);
+    EXPECT_NE(answer.outcome, RequestOutcome::kStale);
+  }
 }
 
 TEST_F(HlcProcessTest, WhatItSaysLastIsReceivedAfterItsEnd) {

@@ -169,7 +169,9 @@ TEST_F(LabControlTest, TellsControllersAndOperatorWhatHappensAndRecordsIt) {
 TEST_F(LabControlTest, StopRequestOfAControllerEndsTheRun) {
   start();
   VehicleEndpoints vehicle{domain_.first()};
-  dds::Writer<StopRequest> stop_requests{vehicle.middleware, dds::topics::stop_request()};
+  dds::Participant controller{
+      dds::on_loopback(controller_name(7), domain_.first(), dds::DomainRole::kLab)};
+  dds::Writer<StopRequest> stop_requests{controller, dds::topics::stop_request()};
   ASSERT_TRUE(begins(vehicle));
   ASSERT_TRUE(stop_requests.wait_for_matched(1, dds::soon()));
   stop_requests.write({7});

@@ -83,11 +83,12 @@ class LabEndpoints {
   dds::Reader<ParameterRequest> requests_;
 };
 
-/// Those of the controllers.
+/// Those of the controllers, also of one whose vehicle is another middleware's.
 class ControllerEndpoints {
  public:
   ControllerEndpoints(int domain, dds::Transport transport)
-      : participant_{options_of(controller_name(1), domain, dds::DomainRole::kLocal, transport)},
+      : participant_{options_of("high_level_controller_1,2,3", domain, dds::DomainRole::kLocal,
+                                transport)},
         ready{participant_, dds::topics::ready_status()},
         commands{participant_, dds::topics::command()},
         triggers{participant_, dds::topics::system_trigger()},
