@@ -115,7 +115,7 @@ Forger::~Forger() {
 }
 
 void Forger::publish(int lab_domain, const std::vector<std::uint8_t>& vehicle_ids) {
-  constexpr std::chrono::milliseconds kPause{20};
+  constexpr std::chrono::milliseconds kPause{20};  // the rate, not a wait for anything
   std::mt19937_64 random(1);
   OfAll all(lab_domain);
   std::list<OfVehicle> vehicles;

@@ -62,7 +62,7 @@ TEST_F(RunProgramDeathTest, AnIncompleteOutputIsInTheExitCodeOfAProcessThatHangs
         "blue", signals, [] { return std::make_shared<FakeProcess>([] { return kExitGood; }); },
         [](FakeProcess&) {},
         [](int exit_code) { return exit_code_with_outputs(exit_code, false); }));
-    std::this_thread::sleep_for(std::chrono::minutes{1});
+    std::this_thread::sleep_for(std::chrono::minutes{1});  // hangs: to be ended long before
   };
   EXPECT_EXIT(hang_at_the_end(), ExitedWithCode(kExitNotWritten), "");
 }
