@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -15,8 +16,9 @@ namespace {
 
 /// Printing and freeing a value recurse to its depth.
 constexpr std::size_t kDeepest = 100;
-/// Aliases of YAML can multiply the values of a short text.
-constexpr std::size_t kMostValues = 10'000'000;
+/// A value takes some 100 bytes, however short its text is, and aliases of YAML can multiply the
+/// values of a short text.
+constexpr std::size_t kMostValues = 4'000'000;
 constexpr std::size_t kLongestPath = 200;
 constexpr std::size_t kLongestShown = 60;
 
@@ -83,8 +85,9 @@ std::string file_and_line(const std::string& file, int line) {
 
 Value& ValueTreeBuilder::add(Value::Kind kind, int line) {
   if (++count_ > kMostValues) {
-    throw std::invalid_argument(
-        fmt::format("{}too many values, must be <= {}", file_and_line(name_, line), kMostValues));
+    throw std::invalid_argument(fmt::format("{}{}: too many values, must be <= {}",
+                                            file_and_line(name_, line),
+                                            one_line(path(), kLongestPath), kMostValues));
   }
   if (open_.empty()) {
     root_ = {.kind = kind, .line = line};
@@ -101,10 +104,12 @@ Value& ValueTreeBuilder::add(Value::Kind kind, int line) {
 void ValueTreeBuilder::key(std::string text, int line) {
   open_.back()->keys.push_back(std::move(text));
   open_.back()->values.push_back({.line = line});
+  expects_key_ = false;
 }
 
 void ValueTreeBuilder::scalar(Value::Kind kind, std::string text, int line) {
   add(kind, line).text = std::move(text);
+  expects_key_ = is_in_map();
 }
 
 void ValueTreeBuilder::open(Value::Kind kind, int line) {
@@ -114,11 +119,13 @@ void ValueTreeBuilder::open(Value::Kind kind, int line) {
                                             one_line(path(true), kLongestPath), kDeepest));
   }
   open_.push_back(&add(kind, line));
+  expects_key_ = is_in_map();
 }
 
 void ValueTreeBuilder::close() {
   const Value& closed = *open_.back();
   open_.pop_back();
+  expects_key_ = is_in_map();
   std::set<std::string_view> keys;
   for (std::size_t i = 0; i < closed.keys.size(); ++i) {
     if (keys.insert(closed.keys[i]).second) continue;
@@ -139,6 +146,24 @@ std::string ValueTreeBuilder::path(bool is_next) const {
     }
   }
   return path;
+}
+
+std::vector<std::size_t> ValueTreeBuilder::place() const {
+  std::vector<std::size_t> place;
+  for (const Value* one : open_) {
+    if (!one->values.empty()) place.push_back(one->values.size() - 1);
+  }
+  return place;
+}
+
+const Value& ValueTreeBuilder::at(const std::vector<std::size_t>& place) const {
+  const Value* value = &root_;
+  for (const std::size_t index : place) value = &value->values[index];
+  return *value;
+}
+
+bool ValueTreeBuilder::is_open(const std::vector<std::size_t>& place) const {
+  return std::ranges::find(open_, &at(place)) != open_.end();
 }
 
 }  // namespace hlc

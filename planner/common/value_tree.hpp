@@ -30,7 +30,7 @@ enum class FileFormat { kYaml, kJson };
 /// Parses a text; `name` stands for the file in messages. Anchors of YAML are resolved.
 /// @throws std::invalid_argument with one line, "name:line: ..." (YAML) or "name: ..." (JSON), if
 /// the text is not of that format, holds a number beyond a double (JSON), a key twice in one map,
-/// more than 100 lists and maps within each other or more than 10 million values
+/// more than 100 lists and maps within each other or more than 4 million values
 [[nodiscard]] Value parse_yaml(const std::string& text, const std::string& name);
 [[nodiscard]] Value parse_json(std::istream& stream, const std::string& name);
 
@@ -58,17 +58,28 @@ class ValueTreeBuilder {
 
   /// Place of the next value (or of the one begun last), "limits.speed"; empty at the top.
   [[nodiscard]] std::string path(bool is_next = true) const;
+  /// True if the open value is a map whose last key has its value.
+  [[nodiscard]] bool expects_key() const { return expects_key_; }
+  /// Indices of the value that was begun last among those of each list or map that holds it.
+  [[nodiscard]] std::vector<std::size_t> place() const;
+  /// The value there; valid until the next one is added.
+  [[nodiscard]] const Value& at(const std::vector<std::size_t>& place) const;
+  [[nodiscard]] bool is_open(const std::vector<std::size_t>& place) const;
   /// @pre every opened list or map is closed
   [[nodiscard]] Value take() { return std::move(root_); }
 
  private:
   Value& add(Value::Kind kind, int line);
+  [[nodiscard]] bool is_in_map() const {
+    return !open_.empty() && open_.back()->kind == Value::Kind::kMap;
+  }
 
   std::string name_;
   FileFormat format_;
   Value root_;
   std::vector<Value*> open_;  ///< a list or map stays in place while it is open
   std::size_t count_{};
+  bool expects_key_{false};
 };
 
 }  // namespace hlc
