@@ -34,6 +34,7 @@ const std::map<std::string, std::string> kNamespaces{
     {"tests/benchmarks", "hlc::test"},
     {"tests/integration", "hlc::test"},
     {"tests/soak", "hlc::test"},
+    {"tests/fuzz", "hlc::fuzz"},
     {"tests/house", "hlc::test"},
 };
 
