@@ -1,11 +1,13 @@
 #include "hlc_bridge/dds/convert_hlc.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hlc_bridge/dds/convert_areas.hpp"
+#include "hlc_bridge/dds/convert_certificate.hpp"
 #include "hlc_bridge/dds/convert_planning.hpp"
 
 // The structured bindings name every field of a plain message, so that a new field does not compile
@@ -129,7 +131,8 @@ bool is_valid(const ReportMessage& wire) {
          all_finite(wire.cost_m2(), wire.gap_m2(), wire.bound_m2(), wire.deviation_m()) &&
          is_valid(wire.coupled()) && is_valid(wire.missing()) && is_valid(wire.waits_for()) &&
          is_valid(wire.blocked_by()) && wire.waits_since() <= wire.step() && has_valid_plan(wire) &&
-         is_near(wire.held_place_m()) && is_near(wire.held_ahead_m());
+         is_near(wire.held_place_m()) && is_near(wire.held_ahead_m()) &&
+         (!wire.has_certificate() || is_valid(wire.certificate()));
 }
 
 }  // namespace
@@ -240,7 +243,7 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns, response_ns] = message;
   const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,
                cost_m2, quality, gap_m2, bound_m2, generated, expanded, level, coupled, missing,
-               deviation_m, waiting, blocked_by, plan, held] = report;
+               deviation_m, waiting, blocked_by, plan, held, certificate] = report;
   const auto& [waits_for, waits_since] = waiting;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
@@ -279,6 +282,9 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   wire.held_route(held_route);
   wire.held_place_m(held_place_m);
   wire.held_ahead_m(held_ahead_m);
+  wire.has_certificate(certificate != nullptr);
+  wire.certificate(
+      certificate_to_wire(certificate != nullptr ? *certificate : coordination::Certificate{}));
 }
 
 Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
@@ -311,7 +317,10 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
                   ? std::optional{coordination::HeldRoad{.route = wire.held_route(),
                                                          .place_m = wire.held_place_m(),
                                                          .ahead_m = wire.held_ahead_m()}}
-                  : std::nullopt};
+                  : std::nullopt,
+      .certificate = wire.has_certificate() ? std::make_shared<const coordination::Certificate>(
+                                                  certificate_from_wire(wire.certificate()))
+                                            : nullptr};
   return {ReportRecord{.report = report,
                        .planning_ns = wire.planning_ns(),
                        .deadline_missed = wire.deadline_missed(),

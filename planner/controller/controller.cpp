@@ -71,6 +71,7 @@ coordination::Report Controller::stand_by(const Observation& observation) {
   step_ = Step{};
   step_.observation = observation;
   standing_steps_ = 0;
+  is_agreed_ = false;
   neighbours_.begin_step(observation.step);
   if (const coordination::MeasuredVehicle* own = observation.measured(options_.vehicle)) {
     const automaton::UniversalAutomaton& automaton = subgraph().automaton();
@@ -114,6 +115,7 @@ coordination::Traffic Controller::observe(const Observation& observation) {
   step_.is_vehicle_lost = check.is_lost;
   step_.is_vehicle_elsewhere = check.is_elsewhere;
   step_.is_disturbed = check.is_disturbed;
+  is_agreed_ = is_agreed_ && !check.is_reanchored && in_force_->announces_only_plan();
   if (check.is_reanchored) depart_from(plan_in_force().pose_at(now));
   step_.report.subgraph = subgraph().spec().name;
   report_plan_in_force(step_.report);
@@ -379,6 +381,8 @@ coordination::Report Controller::finish(bool accepted, coordination::FallbackRea
                                        : coordination::StepStatus::kFallback;
     report.reason = minimal_risk_stop_ ? coordination::FallbackReason::kNone : reason;
   }
+  is_agreed_ |= accepted;
+  report.certificate = std::make_shared<const coordination::Certificate>(certificate(accepted));
   step_.candidate.plan.reset();
   report.plan = plan_in_force().maneuvers_from(report.step);
   if (authority_) {

@@ -361,6 +361,9 @@ class Controller {
   [[nodiscard]] std::optional<coordination::CoupledAreas> compared_areas(VehicleId coupled) const;
   [[nodiscard]] coordination::CommitVerdict decide(
       const coordination::ReceivedMessages<coordination::Outcome>& outcomes) const;
+  [[nodiscard]] coordination::Certificate certificate(bool is_new) const;
+  [[nodiscard]] std::vector<coordination::Separation> separations(
+      const coordination::OccupiedAreas& own) const;
   [[nodiscard]] coordination::Report finish(bool accepted, coordination::FallbackReason reason);
 
   ControllerOptions options_;
@@ -372,6 +375,7 @@ class Controller {
   std::optional<PlanInForce> in_force_;
   std::optional<Authority> authority_;  ///< none: no right of way
   bool minimal_risk_stop_{false};
+  bool is_agreed_{false};  ///< Certificate::is_agreed, of the plan in force
   Step step_;
   std::optional<search::HorizonProblem> former_problem_;  ///< for `warm_up`
   coordination::Waiting waiting_;                         ///< in the last step

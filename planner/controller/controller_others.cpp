@@ -12,6 +12,14 @@
 namespace hlc::controller {
 namespace {
 
+/// One of them during each step of the horizon from t(from) on.
+std::vector<const ConvexPolygon*> during_all(const coordination::OccupiedAreas& areas,
+                                             StepIndex from, std::size_t steps) {
+  std::vector<const ConvexPolygon*> areas_m;
+  for (std::size_t j = 0; j < steps; ++j) areas_m.push_back(&areas.during({from.value + j}));
+  return areas_m;
+}
+
 /// Also of vehicles that are no obstacle.
 void mark(const std::vector<VehicleId>& vehicles, bool OtherVehicle::*as,
           std::vector<OtherVehicle>& others) {
@@ -181,6 +189,56 @@ std::vector<OtherVehicle> Controller::other_vehicles() const {
   mark(step_.opposed, &OtherVehicle::is_opposed, others);
   if (authority_) mark(authority_->withheld_by(), &OtherVehicle::withholds_road, others);
   return others;
+}
+
+/// As the step ends. @param is_new  its plan came into force
+coordination::Certificate Controller::certificate(bool is_new) const {
+  coordination::OccupiedAreas areas = step_.traffic.running;
+  if (is_new) {
+    const coordination::OccupiedAreas& planned = step_.prediction.areas;
+    areas.areas_m = {step_.traffic.running.during(areas.first)};
+    areas.areas_m.insert(areas.areas_m.end(), planned.areas_m.begin(), planned.areas_m.end());
+    areas.final_area_m = planned.final_area_m;
+  }
+  std::vector<coordination::Separation> separations = this->separations(areas);
+  return {.footprint = subgraph().automaton().vehicle.footprint,
+          .areas = std::move(areas),
+          .is_agreed = is_agreed_,
+          .separations = std::move(separations)};
+}
+
+std::vector<coordination::Separation> Controller::separations(
+    const coordination::OccupiedAreas& own) const {
+  using coordination::KnownMotion;
+  std::vector<coordination::Separation> separations;
+  const std::size_t steps = options_.horizon_steps;
+  const auto add = [&](VehicleId other, KnownMotion known,
+                       const std::vector<const ConvexPolygon*>& areas_m) {
+    auto lines = coordination::separating_lines(own, step_.next(), areas_m);
+    if (lines) separations.push_back({other, known, *std::move(lines)});
+  };
+  for (const VehicleId other : coupled()) {
+    const coordination::Traffic& traffic = neighbours_.traffic_of(other);
+    add(other, KnownMotion::kRunning, during_all(traffic.running, step_.next(), steps));
+    const auto respected = step_.respected.find(other);
+    const auto awaited = step_.awaited.find(other);
+    if (respected != step_.respected.end() || awaited != step_.awaited.end()) {
+      const auto& plan = respected != step_.respected.end() ? *respected->second : *awaited->second;
+      if (plan.is_new) add(other, KnownMotion::kNew, during_all(plan.areas, step_.next(), steps));
+    } else {
+      add(other, KnownMotion::kReachable,
+          std::vector<const ConvexPolygon*>(steps, &traffic.reachable_area_m));
+    }
+  }
+  for (const VehicleId other : missing()) {
+    const MissingVehicle vehicle = missing_vehicle(other);
+    if (vehicle.measured == nullptr) continue;  // it may be anywhere
+    std::vector<const ConvexPolygon*> areas_m;
+    const auto obstacles = obstacles_m({}, nullptr, {&vehicle, 1});
+    for (const auto& areas : obstacles) areas_m.push_back(&areas.front());
+    add(other, KnownMotion::kMissing, areas_m);
+  }
+  return separations;
 }
 
 void Controller::note_causes(coordination::Report& report) {

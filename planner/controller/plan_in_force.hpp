@@ -139,6 +139,12 @@ class PlanInForce {
   /// is the step of `check_deviation` or the next
   [[nodiscard]] coordination::OccupiedAreas announced_areas(StepIndex from) const;
 
+  /// True if `announced_areas` are those that were announced of the plan when it came into force:
+  /// the vehicle is on it, and drives no older one. Valid after `check_deviation`.
+  [[nodiscard]] bool announces_only_plan() const {
+    return !is_beside_ && outside_area_m_.empty() && replaced_.doubtful().empty();
+  }
+
   /// False if a vehicle that drives `candidate`, a plan that continues `base()`, certainly stays
   /// within the margin: it is on the plan, and all trims have steering to spare. Valid after
   /// `check_deviation`.

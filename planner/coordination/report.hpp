@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "planner/coordination/certificate.hpp"
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/waiting.hpp"
 
@@ -100,7 +102,8 @@ struct Report {
   std::vector<VehicleId> blocked_by;
   /// Plan::maneuvers_from(k) of the plan in force as the step ends; empty: there is none.
   std::vector<PlannedManeuver> plan;
-  std::optional<HeldRoad> held;  ///< none: no right of way, or no plan
+  std::optional<HeldRoad> held;                    ///< none: no right of way, or no plan
+  std::shared_ptr<const Certificate> certificate;  ///< of that plan; null: on standby
 };
 
 }  // namespace hlc::coordination
