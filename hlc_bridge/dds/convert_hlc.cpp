@@ -132,7 +132,7 @@ bool is_valid(const ReportMessage& wire) {
          is_valid(wire.coupled()) && is_valid(wire.missing()) && is_valid(wire.waits_for()) &&
          is_valid(wire.blocked_by()) && wire.waits_since() <= wire.step() && has_valid_plan(wire) &&
          is_near(wire.held_place_m()) && is_near(wire.held_ahead_m()) &&
-         (!wire.has_certificate() || is_valid(wire.certificate()));
+         (!wire.has_certificate() || dds::is_valid(wire.certificate()));
 }
 
 }  // namespace

@@ -47,6 +47,13 @@ std::optional<record::ReportFile> make_report_file(const std::filesystem::path& 
   return std::optional<record::ReportFile>{std::in_place, file, std::move(on_failure)};
 }
 
+std::optional<record::CertificateFile> make_certificate_file(const std::filesystem::path& folder,
+                                                             GrowingFile::OnFailure on_failure) {
+  if (folder.empty()) return std::nullopt;
+  return std::optional<record::CertificateFile>{std::in_place, folder / "certificates.csv",
+                                                std::move(on_failure)};
+}
+
 }  // namespace
 
 LabControlProcess::Writers::Writers(dds::Participant& lab, dds::Participant& controllers,
@@ -59,6 +66,8 @@ LabControlProcess::Writers::Writers(dds::Participant& lab, dds::Participant& con
 LabControlProcess::LabControlProcess(LabControlOptions options)
     : options_(std::move(options)),
       reports_(make_report_file(
+          options_.out, [this](const std::string& line) { perform(machine::warning(line)); })),
+      certificates_(make_certificate_file(
           options_.out, [this](const std::string& line) { perform(machine::warning(line)); })),
       progress_(stderr, options_.is_terminal),
       shell_(kLabControlName,
@@ -107,13 +116,15 @@ int LabControlProcess::run() {
 bool LabControlProcess::complete_records() {
   const std::optional<std::string> incomplete = reports_ ? reports_->finish() : std::nullopt;
   if (incomplete) perform(machine::warning(*incomplete));
+  const std::optional<std::string> unproven = certificates_ ? certificates_->close() : std::nullopt;
+  if (unproven) perform(machine::warning(*unproven));
   try {
     record_facts();
   } catch (const std::runtime_error& error) {
     perform(machine::warning(error.what()));
     return false;
   }
-  return !incomplete;
+  return !incomplete && !unproven;
 }
 
 lab_control::LabControlPresence LabControlProcess::presence() const {
@@ -126,6 +137,7 @@ lab_control::LabControlPresence LabControlProcess::presence() const {
 
 void LabControlProcess::perform(const ReportRecord& record) {
   if (reports_) reports_->append(record);
+  if (certificates_) certificates_->append(record);
 }
 
 void LabControlProcess::perform(Log log) {

@@ -18,6 +18,7 @@
 #include "hlc_bridge/process/log.hpp"
 #include "hlc_bridge/process/progress_line.hpp"
 #include "hlc_bridge/process/shell.hpp"
+#include "hlc_bridge/record/certificate_file.hpp"
 #include "hlc_bridge/record/report_file.hpp"
 
 namespace hlc::process {
@@ -83,6 +84,7 @@ class LabControlProcess {
 
   LabControlOptions options_;
   std::optional<record::ReportFile> reports_;
+  std::optional<record::CertificateFile> certificates_;
   ProgressLine progress_;
   std::atomic<bool> is_gathering_{true};
   Shell<lab_control::LabControlMachine> shell_;

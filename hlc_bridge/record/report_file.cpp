@@ -231,6 +231,7 @@ ReportFile::ReportFile(std::filesystem::path file, GrowingFile::OnFailure on_fai
 
 void ReportFile::append(const ReportRecord& record) {
   records_.push_back(record);
+  records_.back().report.certificate.reset();  // of no use here, and the largest part
   file_.write(line(record));
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
+#include "vehicle_sim/apps/run_folder.hpp"
 #include "vehicle_sim/closed_loop/fault_campaign.hpp"
 
 namespace {
@@ -43,6 +45,7 @@ struct Choices {
   std::optional<std::uint64_t> replay;
   std::optional<std::vector<std::size_t>> keep;  ///< of the faults
   std::filesystem::path trace;
+  std::filesystem::path out;  ///< for the runs' records; empty: none
 };
 
 std::vector<std::string> fault_names() {
@@ -60,9 +63,32 @@ void print_violations(const FaultRunResult& result) {
   }
 }
 
+/// Of a run of `the_case`, into a folder of its own.
+void write_records(const std::filesystem::path& out, const hlc::closed_loop::FaultCase& the_case,
+                   const hlc::closed_loop::FaultRecords& records) {
+  const std::filesystem::path folder = out / fmt::to_string(the_case.seed);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw std::invalid_argument("--out = " + out.string() +
+                                ", must be a folder that can be created and written");
+  }
+  const double step_s = the_case.scenario.subgraph->automaton().step_s;
+  hlc::closed_loop::Experiment run{
+      .facts = {.simulated_time = the_case.run.lab.is_logical,
+                .period = static_cast<hlc::Nanoseconds>(std::llround(1e9 * step_s)),
+                .first_step = hlc::result::first_step_of(records.reports)},
+      .reports = records.reports,
+      .drives = records.drives};
+  for (const auto& vehicle : the_case.scenario.vehicles) {
+    run.facts.vehicle_ids.push_back(vehicle.id.value);
+  }
+  hlc::apps::write_records(folder, run);
+}
+
 int replay(const Choices& choices) {
   const FaultCampaign campaign(choices.campaign);
-  const hlc::closed_loop::FaultCase the_case =
+  hlc::closed_loop::FaultCase the_case =
       choices.keep ? campaign.draw(*choices.replay, *choices.keep) : campaign.draw(*choices.replay);
   std::ofstream file;
   if (!choices.trace.empty()) {
@@ -72,6 +98,7 @@ int replay(const Choices& choices) {
                                   ", must be a file that can be written");
     }
   }
+  the_case.run.keeps_records = !choices.out.empty();
   std::printf("%s", describe(the_case).c_str());
   const FaultRunResult result =
       campaign.run(the_case, [&](hlc::Nanoseconds at, const std::string& line) {
@@ -79,6 +106,7 @@ int replay(const Choices& choices) {
         file << fmt::format("{:12.6f} {}\n", 1e-9 * static_cast<double>(at), line);
       });
   print_violations(result);
+  if (result.records) write_records(choices.out, the_case, *result.records);
   if (file.is_open() && !file.flush()) {
     throw std::invalid_argument("--trace = " + choices.trace.string() + ", cannot be written");
   }
@@ -126,7 +154,10 @@ int campaign(const Choices& choices, const std::string& flags) {
         [&](std::size_t i) {
           const std::uint64_t seed = choices.seed + i;
           seed_at_work = seed;
-          FaultRunResult result = campaign.run(campaign.draw(seed));
+          hlc::closed_loop::FaultCase the_case = campaign.draw(seed);
+          the_case.run.keeps_records = !choices.out.empty();
+          FaultRunResult result = campaign.run(the_case);
+          if (result.records) write_records(choices.out, the_case, *result.records);
           // Some seeds run twice: the same seed must give the same hash.
           if (i % kTwice == 0 && campaign.run(campaign.draw(seed)).hash != result.hash) {
             result.violations.push_back({.check = "hash", .text = "another hash in another run"});
@@ -211,6 +242,9 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->needs(replayed)
       ->check(hlc::apps::whole(0, 9999) | hlc::apps::among({"none"}));
+  app.add_option("--out", choices.out,
+                 "folder for the records of every run, OUT/SEED, without the ticks in which a "
+                 "vehicle is out of its controller's reach; for check_run.py");
   app.add_option("--trace", choices.trace, "file for what happens")->needs(replayed);
   if (const std::optional<int> code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   const auto run = [&] {

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "hlc_bridge/record/certificate_file.hpp"
 #include "hlc_bridge/record/configuration.hpp"
 #include "hlc_bridge/record/drive_file.hpp"
 #include "hlc_bridge/record/facts_file.hpp"
@@ -69,8 +70,13 @@ void write_records(const std::filesystem::path& folder, const closed_loop::Exper
     file.close();
   }
   record::ReportFile reports(folder / "reports.csv", refuse);
-  for (const ReportRecord& record : experiment.reports) reports.append(record);
+  record::CertificateFile certificates(folder / "certificates.csv", refuse);
+  for (const ReportRecord& record : experiment.reports) {
+    reports.append(record);
+    certificates.append(record);
+  }
   reports.finish();
+  certificates.close();
   write_file(facts_file(folder), record::facts_json(experiment.facts));
 }
 

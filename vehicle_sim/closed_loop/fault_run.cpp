@@ -88,6 +88,7 @@ class FaultRun {
         monitor_(scenario, calm_from_, trace),
         lab_(scenario, settings.lab, monitor_) {
     monitor_.attach(lab_);
+    if (settings.keeps_records) monitor_.keep_records();
     lab_.on_change = [this](const ProcessSlot& slot) { monitor_.changed(slot); };
     lab_.pose_of = [this](std::uint8_t vehicle) { return monitor_.pose_of(vehicle); };
     for (std::uint32_t i = 0; i < settings.faults.size(); ++i) {

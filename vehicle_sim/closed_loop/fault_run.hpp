@@ -15,6 +15,7 @@ struct FaultRunSettings {
   std::vector<Fault> faults;
   /// Real time: duration of the run after the last fault; longer than PlanningCheck::kPatience.
   Nanoseconds calm{6 * kNanosecondsPerSecond};
+  bool keeps_records{};  ///< FaultRunResult::records
 };
 
 /// A whole run of the scenario with faults, in memory: the machines of all its processes, each with

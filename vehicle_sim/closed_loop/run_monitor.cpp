@@ -83,11 +83,25 @@ void RunMonitor::on_driven(std::uint8_t vehicle, Nanoseconds time,
                      stopped_.contains(vehicle) || driven_.is_out_of_reach(id, tick));
   reasons_.driven(name_of({.role = Role::kVehicle, .vehicle = vehicle}), sample.command_create != 0,
                   lab_->now());
+  record(vehicle, tick, sample);
   last.pose = sample.pose;
   last.tick = tick;
   add_to_hash(std::bit_cast<std::uint64_t>(sample.pose.x_m));
   add_to_hash(std::bit_cast<std::uint64_t>(sample.pose.y_m));
   add_to_hash(sample.command_create);
+}
+
+void RunMonitor::record(std::uint8_t vehicle, Nanoseconds tick,
+                        const result::DrivenSample& sample) {
+  const VehicleId id{vehicle};
+  if (!result_.records || stopped_.contains(vehicle) || driven_.is_out_of_reach(id, tick) ||
+      announced_.is_exempt(id)) {
+    return;
+  }
+  result::Drive& drive = result_.records->drives[vehicle];
+  if (!drive.empty() && tick <= drive.back().t) return;  // made up for
+  drive.push_back(sample);
+  drive.back().t = tick;
 }
 
 void RunMonitor::on_prediction(const coordination::Prediction& prediction) {
@@ -110,6 +124,7 @@ void RunMonitor::on_report(const ReportRecord& record, const coordination::Plan*
   plans_.reported(report, in_force, lab_->now(), result_.violations);
   driven_.reported(report, in_force);
   announced_.reported(report, report.step.value * period_);
+  if (result_.records) result_.records->reports.push_back(record);
   add_to_hash(report.step.value);
   add_to_hash(static_cast<std::uint64_t>(report.status));
   add_to_hash(std::bit_cast<std::uint64_t>(report.cost_m2));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/result/run_record.hpp"
 #include "vehicle_sim/closed_loop/announced_check.hpp"
 #include "vehicle_sim/closed_loop/driven_plans.hpp"
 #include "vehicle_sim/closed_loop/invariants.hpp"
@@ -18,6 +19,14 @@ namespace hlc::closed_loop {
 /// Receives a line for each event of a run. @param at  true time since the begin of the run
 using Trace = std::function<void(Nanoseconds at, const std::string& line)>;
 
+/// What the run's processes record, as far as controllers can be held responsible for it.
+struct FaultRecords {
+  std::vector<ReportRecord> reports;
+  /// By true time. Without the ticks in which a vehicle is out of reach (DrivenPlans), not seen
+  /// since (AnnouncedCheck), or braking after the stop symbol.
+  result::Drives drives;
+};
+
 struct FaultRunResult {
   Violations violations;
   std::uint64_t hash{};       ///< of all that was reported, driven and logged, and when
@@ -26,6 +35,7 @@ struct FaultRunResult {
   /// Car-steps of vehicles that are out of reach (DrivenPlans), or not seen since (AnnouncedCheck)
   std::uint64_t unreachable{};
   double smallest_distance_m{};  ///< between driven footprints
+  std::optional<FaultRecords> records;
 };
 
 /// Everything that is checked and hashed while a run goes on.
@@ -35,6 +45,8 @@ class RunMonitor final : public RunObserver {
   RunMonitor& operator=(const RunMonitor&) = delete;
   RunMonitor(const scenario::Scenario& scenario, Nanoseconds calm_from, const Trace& trace);
 
+  /// Before the first event.
+  void keep_records() { result_.records.emplace(); }
   /// The lab that it observes; before the first event.
   void attach(SimulatedLab& lab) { lab_ = &lab; }
 
@@ -84,6 +96,7 @@ class RunMonitor final : public RunObserver {
 
   void came_back(std::uint8_t vehicle);
   void check_lab_control(const coordination::Report& report);
+  void record(std::uint8_t vehicle, Nanoseconds tick, const result::DrivenSample& sample);
   void add_to_hash(std::uint64_t value);
 
   Nanoseconds period_;
