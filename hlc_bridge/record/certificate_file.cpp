@@ -14,7 +14,7 @@ constexpr std::string_view kCertificateHeading =
 
 void add_number(double value, std::string& text) {
   if (!text.empty() && text.back() != ',' && text.back() != ';' && text.back() != ':') text += ' ';
-  fmt::format_to(std::back_inserter(text), "{:.9f}", value);
+  fmt::format_to(std::back_inserter(text), "{}", value);
 }
 
 void add_area(const ConvexPolygon& area, std::string& text) {
@@ -35,7 +35,7 @@ void add_separation(const coordination::Separation& separation, std::string& tex
 
 std::string line(const coordination::Report& report) {
   const auto& [footprint, areas, is_agreed, separations] = *report.certificate;
-  std::string text = fmt::format("{},{},{:.9f},{:.9f},{},", report.step.value, report.vehicle.value,
+  std::string text = fmt::format("{},{},{},{},{},", report.step.value, report.vehicle.value,
                                  footprint.length_m, footprint.width_m, is_agreed ? 1 : 0);
   for (std::size_t i = 0; i < areas.areas_m.size(); ++i) {
     if (i > 0) text += ';';

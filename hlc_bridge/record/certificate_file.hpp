@@ -22,8 +22,8 @@ namespace hlc::record {
 /// | `standstill` | the area after the last of them, likewise |
 /// | `separations` | `ID:KNOWN:direction offset direction offset ...`, separated by ; |
 ///
-/// Lengths [m] and directions [rad] have nine decimals: a billionth of a metre is less than any
-/// check of them can mean, and the file is half as large.
+/// Lengths [m] and directions [rad] read back to the same bits: areas have edges of a nanometre,
+/// whose direction rounding would change.
 class CertificateFile {
  public:
   /// Starts an empty file. @throws std::runtime_error naming the file
