@@ -10,8 +10,7 @@ area of a vehicle during step s under the plan that is in force as step k ends.
   plan        A_k(k) holds A_(k-1)(k); a plan that was kept has the areas that it had, A_k(s) = A_(k-1)(s) for s >= k;
   line        every line touches the own area of its step, and what was known of the other vehicle is beyond it;
   pair        two vehicles share no point from step k+1 on; coupled ones have a line between them in the horizon;
-  driven      the driven footprint lies in the area of its step; at a start a car of the lab is late, which others learn
-              with its next state: up to 35 mm outside for less than 0.5 s is counted.
+  driven      the driven footprint lies in the area of its step (that of a late car for all but half a second).
 
 Counted, not rejected: pairs and poses of a vehicle to whose areas nobody has agreed (off its plan, not seen, or new).
 """
@@ -29,8 +28,10 @@ import sys
 TOUCH_M = 1e-6  # a line and the area that it touches; a corner and the lines of the edges
 APART_M = 2e-5  # overlap of areas that are apart: a standstill may lie 2 um outside the last area of its plan
 SAME_M = 1e-7  # corners of an area in two records
-SEEN_M = 1e-2  # between where a missing vehicle is seen standing and the standstill of its plan
-DRIVEN_M, LATE_M, LATE_NS = 1e-4, 0.035, 500_000_000  # a driven footprint outside its area; that of a late car
+# How far the area of another vehicle may reach over the line; a missing one may be seen beside its standstill.
+DEPTH_M = {"running": APART_M, "new": APART_M, "reachable": APART_M, "missing": 1e-2}
+DRIVEN_M = 1e-4  # a footprint outside its area
+LATE_M, LATE_NS = 0.035, 500_000_000  # of a late car: those of the lab start so late; in real time commands are lost
 BEFORE_STEPS = 3  # a vehicle that is off its plan is seen so at the latest so many steps later
 
 
@@ -51,17 +52,18 @@ class Certificate:
         for text in filter(None, row["separations"].split(";")):
             other, known, lines = text.split(":")
             lines = [(math.cos(direction), math.sin(direction), offset) for direction, offset in corners(lines)]
-            if known not in ("running", "new", "reachable", "missing"):
-                raise ValueError(f"{known}, must be running, new, reachable or missing")
+            if known not in DEPTH_M:
+                raise ValueError(f"{known}, must be one of {', '.join(DEPTH_M)}")
             self.separations.append((int(other), known, lines))
 
     def during(self, step):
         """The area of a step >= k."""
         return self.areas[step - self.step] if step < self.end else self.standstill
 
-    def depth_m(self, known):
-        """How far an area may reach over a line of another vehicle."""
-        return SEEN_M if known == "missing" and not self.areas else APART_M
+    def off(self, step, x, y, yaw):
+        """How far the footprint at a pose reaches out of the area of a step [m]."""
+        c, s, a, b = math.cos(yaw), math.sin(yaw), self.length_m / 2, self.width_m / 2
+        return outside(self.during(step), [(x + c * u - s * v, y + s * u + c * v) for u in (a, -a) for v in (b, -b)])
 
 
 def number(text):
@@ -132,12 +134,12 @@ def report(row):
         raise ValueError(f"status = {status}, must be standby, planned, fallback or minimal_risk_stop")
     named = re.findall(r"(?:[^;\\]|\\.)+", row["plan"])  # TRIM:LABEL;TRIM:LABEL, \; and \\ within labels
     return {"key": (int(row["step"]), int(row["id"])), "status": status, "maneuvers": len(named),
+            "pose": [number(row[f"planned_{name}"]) for name in ("x_m", "y_m", "heading_rad")],
             "is_new": status == "planned", "coupled": {int(one) for one in row["coupled"].split(";") if one}}
 
 
 def pose(row):
-    x, y, yaw = (number(row[name]) for name in ("x_m", "y_m", "yaw_rad"))
-    return int(row["t_ns"]), x, y, math.cos(yaw), math.sin(yaw), int(row["command_create_ns"])
+    return (int(row["t_ns"]), *(number(row[name]) for name in ("x_m", "y_m", "yaw_rad")), int(row["command_create_ns"]))
 
 
 class Check:
@@ -146,7 +148,7 @@ class Check:
         try:
             facts = json.loads((run / "run.json").read_text(encoding="utf-8"))
             self.period, vehicles = int(facts["period_ns"]), [int(one) for one in facts["vehicle_ids"]]
-            self.out_since = {}
+            self.out_since, self.late_m = {}, LATE_M if facts["simulated_time"] else math.inf
             if self.period <= 0:
                 raise ValueError(f"period_ns = {self.period}, must be > 0")
         except (OSError, ValueError, KeyError, TypeError) as error:
@@ -208,6 +210,8 @@ class Check:
         return is_sound
 
     def plan(self, one):
+        if (out := one.off(one.step, *self.reports[one.step, one.id]["pose"])) > DRIVEN_M and one.is_agreed:
+            self.reject("plan", one.step, one.id, f"planned pose {mm(out)} outside its area", f"<= {mm(DRIVEN_M)}")
         before = self.certificates.get((one.step - 1, one.id))
         if before is None or not (before.is_agreed and one.is_agreed):
             return self.counts.update(["plans that continue none that was agreed"])
@@ -229,20 +233,19 @@ class Check:
             if abs(gap) > TOUCH_M:
                 self.reject("line", one.step, one.id, f"the area during step {step} ends {mm(gap)} beyond the line to "
                             f"vehicle {other} ({known})", f"0, up to {mm(TOUCH_M)}")
-            if is_known and (gap := -beyond(its.during(step), line)[0]) > (most := its.depth_m(known)):
+            if is_known and (gap := -beyond(its.during(step), line)[0]) > DEPTH_M[known]:
                 what = f"vehicle {other} ({known}) is {mm(gap)} on this side of it during step {step}"
-                self.reject("line", one.step, one.id, what, f"<= {mm(most)}")
+                self.reject("line", one.step, one.id, what, f"<= {mm(DEPTH_M[known])}")
 
     def pair(self, a, b):
         both = ((a, b), (b, a))
-        lines = [(its.depth_m(known), its, lines) for one, its in both for other, known, lines in one.separations
-                 if other == its.id]
+        lines = [(known, its, lines) for one, its in both for other, known, lines in one.separations if other == its.id]
         is_coupled = any(its.id in self.reports[one.step, one.id]["coupled"] for one, its in both)
         for step in range(a.step + 1, max(a.end, b.end, a.step + 1) + 1):
             index = step - a.step - 1
             depth = overlap(a.during(step), b.during(step))
-            is_proven = any(index < len(found) and beyond(its.during(step), found[index])[0] >= -most
-                            for most, its, found in lines)
+            is_proven = any(index < len(found) and -beyond(its.during(step), found[index])[0] <= DEPTH_M[known]
+                            for known, its, found in lines)
             if is_proven or (depth <= APART_M and not (is_coupled and index < self.horizon)):
                 self.counts["pairs apart by a line" if is_proven else "pairs apart, not coupled or standing"] += 1
             elif not (a.is_agreed and b.is_agreed):
@@ -251,20 +254,18 @@ class Check:
                 self.reject("pair", a.step, a.id, f"no line between it and vehicle {b.id} during step {step}, overlap "
                             f"{mm(depth)}", f"<= {mm(APART_M)}, by a line if coupled")
 
-    def pose(self, vehicle, time, x, y, c, s, create):
+    def pose(self, vehicle, time, x, y, yaw, create):
         step = time // self.period
         keys = [(k, vehicle) for k in (create // self.period, step - 1, step) if k <= step]
         if not (plans := [self.certificates[key] for key in keys if key in self.certificates]):
             return self.counts.update(["driven poses without a plan"])
-        a, b = plans[0].length_m / 2, plans[0].width_m / 2
-        body = [(x + c * u - s * v, y + s * u + c * v) for u in (a, -a) for v in (b, -b)]
-        out = min(outside(one.during(step), body) for one in plans)
+        out = min(one.off(step, x, y, yaw) for one in plans)
         near = [self.certificates.get((k, vehicle)) for k in range(step - 1, step + BEFORE_STEPS + 1)]
         first, last = self.out_since.get(vehicle, (time, time))
         self.out_since[vehicle] = (first if out > DRIVEN_M and time - last < LATE_NS / 5 else time, time)
         if out <= DRIVEN_M:
             self.counts["driven poses in their areas"] += 1
-        elif out <= LATE_M and time - first < LATE_NS:
+        elif out <= self.late_m and time - first < LATE_NS:
             self.counts["driven poses of a late car"] += 1
         elif any(one is not None and not one.is_agreed for one in near):
             self.counts["driven poses not proven, nobody has agreed"] += 1
