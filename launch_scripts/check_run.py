@@ -83,10 +83,10 @@ def corners(text):
 
 
 def rows_of(file, make):
-    """make(row) of every row; an incomplete last line is left out, as the writer may have been killed."""
     made, reader = [], None
     try:
         text = file.read_text(encoding="utf-8")
+        # Without an incomplete last line: its writer was killed.
         reader = csv.DictReader(text[:text.rfind("\n") + 1].splitlines(keepends=True), strict=True)
         for row in reader:
             if None in row or None in row.values():
@@ -176,11 +176,10 @@ class Check:
             status = self.reports[key]["status"] if key in self.reports else "not reported"
             if (key in self.certificates) == (status in ("standby", "not reported")):
                 self.reject("record", *key, f"{status}, certificate: {key in self.certificates}", "one if it plans")
-        # What is no polygon cannot be compared with anything.
         sound = [key for key in sorted(self.certificates) if key in self.reports and self.areas(self.certificates[key])]
         self.certificates = {key: self.certificates[key] for key in sound}
+        self.counts["steps of a vehicle"] = len(sound)
         for one in self.certificates.values():
-            self.counts["steps of a vehicle"] += 1
             self.plan(one)
             for separation in one.separations:
                 self.lines(one, *separation)
@@ -262,7 +261,8 @@ class Check:
         out = min(one.off(step, x, y, yaw) for one in plans)
         near = [self.certificates.get((k, vehicle)) for k in range(step - 1, step + BEFORE_STEPS + 1)]
         first, last = self.out_since.get(vehicle, (time, time))
-        self.out_since[vehicle] = (first if out > DRIVEN_M and time - last < LATE_NS / 5 else time, time)
+        first = first if out > DRIVEN_M and time - last < LATE_NS / 5 else time
+        self.out_since[vehicle] = first, time
         if out <= DRIVEN_M:
             self.counts["driven poses in their areas"] += 1
         elif out <= self.late_m and time - first < LATE_NS:
