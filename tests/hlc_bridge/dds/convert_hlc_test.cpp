@@ -192,6 +192,36 @@ TEST(OwnConversionRefuses, NumbersThatAreNotFinite) {
   EXPECT_TRUE(is_refused(report));
 }
 
+TEST(OwnConversionRefuses, CertificatesWithoutMeaning) {
+  const auto refused_with = [](auto damage) {
+    auto report = good<ReportRecord>();
+    coordination::Certificate certificate{
+        .footprint = {.length_m = 0.2, .width_m = 0.1},
+        .areas = {.first = {report.report.step}, .areas_m = {}, .final_area_m = {}},
+        .is_agreed = true,
+        .separations = {{.from = {2}, .lines = {{.direction_rad = 1.0, .offset_m = 2.0}}}}};
+    damage(certificate);
+    report.report.certificate = std::make_shared<const coordination::Certificate>(certificate);
+    return is_refused(report);
+  };
+  using coordination::Certificate;
+  EXPECT_FALSE(refused_with([](Certificate&) {}));
+  EXPECT_TRUE(refused_with([](Certificate& one) { one.footprint.width_m = kNan; }));
+  EXPECT_TRUE(refused_with([](Certificate& one) { one.separations[0].from = {31}; }));
+  EXPECT_TRUE(refused_with([](Certificate& one) {
+    one.separations[0].known = static_cast<coordination::KnownMotion>(4);
+  }));
+  EXPECT_TRUE(refused_with([](Certificate& one) { one.separations[0].lines[0].offset_m = kNan; }));
+  EXPECT_TRUE(
+      refused_with([](Certificate& one) { one.separations[0].lines[0].direction_rad = kNan; }));
+  EXPECT_TRUE(refused_with([](Certificate& one) { one.separations[0].lines.resize(1001); }));
+  EXPECT_TRUE(
+      refused_with([](Certificate& one) { one.separations.resize(1001, one.separations[0]); }));
+  EXPECT_TRUE(refused_with([](Certificate& one) {
+    one.areas.final_area_m = {{Point{0, 0}, Point{1, 0}}};
+  }));
+}
+
 TEST(OwnConversionRefuses, AWaitThatBeginsAfterItsStep) {
   auto report = good<ReportRecord>();
   report.report.step = {200};

@@ -153,10 +153,22 @@ void put_message(std::ostream& out, const coordination::PlannedManeuver& value) 
 void put_message(std::ostream& out, const coordination::HeldRoad& value) {
   put_all(out, value.route, value.place_m, value.ahead_m);
 }
+void put_message(std::ostream& out, const SeparatingLine& value) {
+  put_all(out, value.direction_rad, value.offset_m);
+}
+void put_message(std::ostream& out, const coordination::Separation& value) {
+  const auto& [a, b, c] = value;
+  put_all(out, a, b, c);
+}
+void put_message(std::ostream& out, const coordination::Certificate& value) {
+  const auto& [a, b, c, d] = value;
+  put_all(out, a.length_m, a.width_m, b, c, d);
+}
 void put_message(std::ostream& out, const coordination::Report& value) {
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = value;
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w] = value;
   put_all(out, a, b, c, d, e, f, g, h, i, j, k, l.has_value(), l.value_or(0.0), m, n, o, p, q, r, s,
-          t, u, v.has_value(), v.value_or(coordination::HeldRoad{}));
+          t, u, v.has_value(), v.value_or(coordination::HeldRoad{}), w != nullptr,
+          w != nullptr ? *w : coordination::Certificate{});
 }
 void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d, e] = value;
@@ -242,6 +254,16 @@ ConvexPolygon polygon(Random& random) {
 
 coordination::OccupiedAreas areas(Random& random) {
   return {{random()}, list(random, 9, polygon), polygon(random)};
+}
+
+coordination::Certificate certificate(Random& random) {
+  const auto line = [](Random& r) { return SeparatingLine{number(r), number(r)}; };
+  const auto separation = [&line](Random& r) {
+    return coordination::Separation{vehicle(r), static_cast<coordination::KnownMotion>(whole(r, 3)),
+                                    list(r, 9, line)};
+  };
+  return {
+      {number(random), number(random)}, areas(random), coin(random), list(random, 5, separation)};
 }
 
 std::string words(Random& random) {
@@ -523,6 +545,9 @@ ReportRecord sample(Random& random) {
       list(random, 9, maneuver)};
   if (coin(random)) {
     report.held = {static_cast<std::uint32_t>(random()), number(random), number(random)};
+  }
+  if (coin(random)) {
+    report.certificate = std::make_shared<const coordination::Certificate>(certificate(random));
   }
   return {report, random(), coin(random), random()};
 }
