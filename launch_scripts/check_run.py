@@ -10,7 +10,7 @@ area of a vehicle during step s under the plan that is in force as step k ends.
   plan        A_k(k) holds A_(k-1)(k); a plan that was kept has the areas that it had, A_k(s) = A_(k-1)(s) for s >= k;
   line        every line touches the own area of its step, and what was known of the other vehicle is beyond it;
   pair        two vehicles share no point from step k+1 on; coupled ones have a line between them in the horizon;
-  driven      the driven footprint lies in the area of its step (that of a late car for all but half a second).
+  driven      the driven footprint lies in the area of its step, beyond the others' lines (at most half a second late).
 
 Counted, not rejected: pairs and poses of a vehicle to whose areas nobody has agreed (off its plan, not seen, or new).
 """
@@ -57,13 +57,11 @@ class Certificate:
             self.separations.append((int(other), known, lines))
 
     def during(self, step):
-        """The area of a step >= k."""
         return self.areas[step - self.step] if step < self.end else self.standstill
 
-    def off(self, step, x, y, yaw):
-        """How far the footprint at a pose reaches out of the area of a step [m]."""
+    def footprint(self, x, y, yaw):
         c, s, a, b = math.cos(yaw), math.sin(yaw), self.length_m / 2, self.width_m / 2
-        return outside(self.during(step), [(x + c * u - s * v, y + s * u + c * v) for u in (a, -a) for v in (b, -b)])
+        return [(x + c * u - s * v, y + s * u + c * v) for u in (a, -a) for v in (b, -b)]
 
 
 def number(text):
@@ -86,8 +84,7 @@ def rows_of(file, make):
     made, reader = [], None
     try:
         text = file.read_text(encoding="utf-8")
-        # Without an incomplete last line: its writer was killed.
-        reader = csv.DictReader(text[:text.rfind("\n") + 1].splitlines(keepends=True), strict=True)
+        reader = csv.DictReader(text[:text.rfind("\n") + 1].splitlines(keepends=True), strict=True)  # whole lines
         for row in reader:
             if None in row or None in row.values():
                 raise ValueError("another number of columns than the heading")
@@ -153,20 +150,19 @@ class Check:
                 raise ValueError(f"period_ns = {self.period}, must be > 0")
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise Unreadable(f"{run / 'run.json'}: {type(error).__name__}: {error}") from error
-        drives = {vehicle: run / f"vehicle_{vehicle}.csv" for vehicle in vehicles}
-        self.drives = {vehicle: rows_of(file, pose) for vehicle, file in drives.items() if file.exists()}
+        files = {vehicle: run / f"vehicle_{vehicle}.csv" for vehicle in vehicles}
+        self.drives = {vehicle: rows_of(file, pose) for vehicle, file in files.items() if file.exists()}
         # Of a report that arrived twice the last one counts, as in the summary.
         self.reports = {one["key"]: one for one in rows_of(run / "reports.csv", report)}
-        self.certificates, last = {}, {}
+        self.certificates, last, self.against = {}, {}, collections.defaultdict(list)
         for one in rows_of(run / "certificates.csv", Certificate):
             if one.step <= last.get(one.id, -1):
                 self.reject("record", one.step, one.id, f"stands after step {last[one.id]}", "in order, each step once")
             last[one.id] = max(last.get(one.id, -1), one.step)
             self.certificates[one.step, one.id] = one
-        everyone = self.certificates.values()
-        self.horizon = max((len(found) for one in everyone for _, _, found in one.separations), default=0)
-        stands = sorted(((one.id, size(one.standstill)) for one in everyone if one.standstill), reverse=True)
-        self.least = dict(stands)  # the smallest of each vehicle [m^2] is its last
+        self.horizon = max((len(ls) for one in self.certificates.values() for _, _, ls in one.separations), default=0)
+        stands = ((one.id, size(one.standstill)) for one in self.certificates.values() if one.standstill)
+        self.least = dict(sorted(stands, reverse=True))  # the smallest of each vehicle [m^2] is its last
 
     def reject(self, check, step, vehicle, what, allowed, file="certificates.csv"):
         self.violations.append(f"{file}: vehicle {vehicle}, step {step}: {check}: {what}, must be {allowed}")
@@ -209,7 +205,8 @@ class Check:
         return is_sound
 
     def plan(self, one):
-        if (out := one.off(one.step, *self.reports[one.step, one.id]["pose"])) > DRIVEN_M and one.is_agreed:
+        planned = one.footprint(*self.reports[one.step, one.id]["pose"])
+        if (out := outside(one.during(one.step), planned)) > DRIVEN_M and one.is_agreed:
             self.reject("plan", one.step, one.id, f"planned pose {mm(out)} outside its area", f"<= {mm(DRIVEN_M)}")
         before = self.certificates.get((one.step - 1, one.id))
         if before is None or not (before.is_agreed and one.is_agreed):
@@ -227,9 +224,10 @@ class Check:
         its = self.certificates.get((one.step, other))
         is_known = its is not None and (its.is_agreed if known in ("reachable", "missing") else
                                         (known == "new") == self.reports[its.step, its.id]["is_new"])
+        if is_known or known in ("reachable", "missing"):
+            self.against[one.step + 1, other] += lines[:1]
         for step, line in enumerate(lines, one.step + 1):
-            gap = beyond(one.during(step), line)[1]
-            if abs(gap) > TOUCH_M:
+            if abs(gap := beyond(one.during(step), line)[1]) > TOUCH_M:
                 self.reject("line", one.step, one.id, f"the area during step {step} ends {mm(gap)} beyond the line to "
                             f"vehicle {other} ({known})", f"0, up to {mm(TOUCH_M)}")
             if is_known and (gap := -beyond(its.during(step), line)[0]) > DEPTH_M[known]:
@@ -258,7 +256,9 @@ class Check:
         keys = [(k, vehicle) for k in (create // self.period, step - 1, step) if k <= step]
         if not (plans := [self.certificates[key] for key in keys if key in self.certificates]):
             return self.counts.update(["driven poses without a plan"])
-        out = min(one.off(step, x, y, yaw) for one in plans)
+        driven = plans[0].footprint(x, y, yaw)
+        out = min(outside(one.during(step), driven) for one in plans)
+        out = max([out] + [-beyond(driven, line)[0] for line in self.against[step, vehicle]])
         near = [self.certificates.get((k, vehicle)) for k in range(step - 1, step + BEFORE_STEPS + 1)]
         first, last = self.out_since.get(vehicle, (time, time))
         first = first if out > DRIVEN_M and time - last < LATE_NS / 5 else time
@@ -270,7 +270,7 @@ class Check:
         elif any(one is not None and not one.is_agreed for one in near):
             self.counts["driven poses not proven, nobody has agreed"] += 1
         else:
-            what = f"{mm(out)} outside its area at {time / 1e9:.2f} s"
+            what = f"{mm(out)} outside its area or on the other side of a line at {time / 1e9:.2f} s"
             self.reject("driven", step, vehicle, what, f"<= {mm(DRIVEN_M)}", f"vehicle_{vehicle}.csv")
 
 

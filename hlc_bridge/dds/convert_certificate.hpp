@@ -2,7 +2,7 @@
 
 #include <CertificateMessage.h>
 
-#include "planner/coordination/certificate.hpp"
+#include "planner/coordination/report.hpp"
 
 /// Certificates in our own types. Only sources of this folder include this file.
 namespace hlc::dds {

@@ -63,16 +63,18 @@ void print_violations(const FaultRunResult& result) {
   }
 }
 
+void create_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error) return;
+  throw std::invalid_argument("--out = " + folder.string() + ", must be a folder or a new one");
+}
+
 /// Of a run of `the_case`, into a folder of its own.
 void write_records(const std::filesystem::path& out, const hlc::closed_loop::FaultCase& the_case,
                    const hlc::closed_loop::FaultRecords& records) {
   const std::filesystem::path folder = out / fmt::to_string(the_case.seed);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw std::invalid_argument("--out = " + out.string() +
-                                ", must be a folder that can be created and written");
-  }
+  create_folder(folder);
   const double step_s = the_case.scenario.subgraph->automaton().step_s;
   hlc::closed_loop::Experiment run{
       .facts = {.simulated_time = the_case.run.lab.is_logical,
@@ -200,14 +202,8 @@ std::string flags_of(const Choices& choices) {
                      choices.faults.empty() ? "" : " --faults ", fmt::join(choices.faults, ","));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Runs in memory with faults that a seed draws, checked in every tick.",
-               "fault_simulator");
-  app.footer("Exit codes: 0 nothing is violated, 1 something is, 2 bad flags or files.");
-  Choices choices;
-  std::vector<std::string> keep;
+/// What is driven in all runs.
+void add_campaign_flags(CLI::App& app, Choices& choices) {
   app.add_option("--cars", choices.campaign.cars,
                  fmt::format("{} ... {}, with --lab_network {}; 0: as the seed has it",
                              hlc::closed_loop::kFewestCars, hlc::closed_loop::kMostCars,
@@ -222,19 +218,30 @@ int main(int argc, char** argv) {
   app.add_option("--priorities", choices.priorities, "who plans first, in all runs")
       ->check(hlc::apps::among(hlc::coordination::priority_strategy_names()))
       ->capture_default_str();
+  app.add_option("--faults", choices.faults, "kinds of faults (default: all)")
+      ->delimiter(',')
+      ->check(hlc::apps::among(fault_names()));
+  app.add_option("--scenario_folder", choices.campaign.scenario_folder,
+                 "folder of the scenarios (default: scenarios beside the program)");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Runs in memory with faults that a seed draws, checked in every tick.",
+               "fault_simulator");
+  app.footer("Exit codes: 0 nothing is violated, 1 something is, 2 bad flags or files.");
+  Choices choices;
+  std::vector<std::string> keep;
+  add_campaign_flags(app, choices);
   app.add_option("--runs", choices.runs, "number of runs")
       ->check(hlc::apps::whole(1, kLargestSeed))
       ->capture_default_str();
   app.add_option("--seed", choices.seed, "of the first run; the next ones count on")
       ->check(hlc::apps::whole(0, kLargestSeed))
       ->capture_default_str();
-  app.add_option("--faults", choices.faults, "kinds of faults (default: all)")
-      ->delimiter(',')
-      ->check(hlc::apps::among(fault_names()));
   app.add_option("--jobs", choices.jobs, "threads (default: as many as cores)")
       ->check(hlc::apps::whole(1, 256));
-  app.add_option("--scenario_folder", choices.campaign.scenario_folder,
-                 "folder of the scenarios (default: scenarios beside the program)");
   CLI::Option* const replayed =
       app.add_option("--replay", choices.replay, "only the run of this seed")
           ->check(hlc::apps::whole(0, kLargestSeed));
@@ -249,6 +256,7 @@ int main(int argc, char** argv) {
   if (const std::optional<int> code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   const auto run = [&] {
     hlc::apps::check_each_once("--faults", choices.faults);
+    if (!choices.out.empty()) create_folder(choices.out);
     if (choices.campaign.scenario_folder.empty()) {
       choices.campaign.scenario_folder =
           std::filesystem::read_symlink("/proc/self/exe").parent_path() / "scenarios";

@@ -41,6 +41,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFaultFlags{"--runs 0", "--runs"}, BadFaultFlags{"--seed -1", "--seed"},
         BadFaultFlags{"--faults kill,flood", "flood"}, BadFaultFlags{"--faults kill,kill", "twice"},
         BadFaultFlags{"--jobs 0", "--jobs"}, BadFaultFlags{"--speed 3", "--speed"},
+        BadFaultFlags{"--runs 1 --out /dev/null/records", "--out"},
         BadFaultFlags{"--keep 1", "--replay"}, BadFaultFlags{"--trace x.txt", "--replay"},
         BadFaultFlags{"--cars 3 --replay 1 --keep 1,two", "two"},
         BadFaultFlags{"--cars 3 --replay 1 --keep 99", "99"},
@@ -50,6 +51,19 @@ TEST(FaultSimulator, HelpIsGoodAndNamesTheExitCodes) {
   const auto [exit_code, output] = run_simulator("--help");
   EXPECT_EQ(exit_code, 0);
   EXPECT_NE(output.find("Exit codes"), std::string::npos);
+}
+
+TEST(FaultSimulator, KeepsTheRecordsOfItsRuns) {
+  const test::TemporaryFolder folder;
+  const auto [exit_code, output] =
+      run_simulator("--cars 3 --runs 2 --seed 4 --out " + folder.path().string());
+  EXPECT_EQ(exit_code, 0) << output;
+  for (const char* seed : {"4", "5"}) {
+    for (const char* file :
+         {"run.json", "reports.csv", "certificates.csv", "vehicle_1.csv", "vehicle_3.csv"}) {
+      EXPECT_TRUE(std::filesystem::exists(folder.path() / seed / file)) << seed << ' ' << file;
+    }
+  }
 }
 
 TEST(FaultSimulator, FindsItsScenariosFromAnyFolder) {
