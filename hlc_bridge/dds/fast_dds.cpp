@@ -94,6 +94,15 @@ constexpr std::int64_t kMostBeforeJoining = std::int64_t{1} << 24U;
 // What is announced above the last one received takes no such loop, and a late joiner receives a
 // history in pieces: at most the reports of 10 000 steps about 30 vehicles (endpoint_qos.cpp).
 constexpr std::int64_t kMostAnnounced = std::int64_t{1} << 20U;
+// What a reliable reader stores of a writer before all earlier messages are there. Those beyond are
+// sent again: without a bound, a peer that publishes faster than this process receives fills the
+// memory, since of the reports alone the history has room for 10 000 of each vehicle. A writer
+// whose message was lost sends so many at most, in logical time, until that is repaired (60 ms).
+constexpr std::int64_t kMostUnordered = std::int64_t{1} << 8U;
+// No program sends longer ones: a list of 255 vehicles has 50 kB. A message in fragments has its
+// place in memory as soon as the first of them is there.
+constexpr std::uint32_t kLongestMessage = std::uint32_t{1} << 18U;
+
 // The library stores each number of a gap that is not the next one to come. A writer sends such
 // gaps only within its history.
 constexpr std::int64_t kLongestGapApart = std::int64_t{1} << 10U;
@@ -108,6 +117,10 @@ std::int64_t most_missing(std::int64_t last) {
 
 std::int64_t most_announced(std::int64_t last) {
   return last > 0 ? kMostAnnounced : kMostBeforeJoining;
+}
+
+std::int64_t most_unordered(std::int64_t last) {
+  return last > 0 ? kMostUnordered : kMostBeforeJoining;
 }
 
 /// Up to this one each message of the writer was received or is gone; none: the reader does not
@@ -147,6 +160,25 @@ bool is_plausible(StatefulReader& reader, const GUID_t& writer, const SequenceNu
   if (!last || in_64_bits(number) <= *last + most(*last)) return true;
   log_dropped(writer, in_64_bits(number), *last);
   return false;
+}
+
+/// Nobody sends the messages of a best-effort writer again.
+bool has_room(StatefulReader& reader, const CacheChange_t& change) {
+  if (reader.getAttributes().reliabilityKind != RELIABLE) return true;
+  const auto last = last_received(reader, change.writerGUID);
+  return !last || in_64_bits(change.sequenceNumber) <= *last + most_unordered(*last);
+}
+
+/// The next messages of the writer do not wait for it.
+void skip_message(StatefulReader& reader, const CacheChange_t& change) {
+  if (is_first_dropped()) {
+    logError(RTPS_READER, "Dropped message " << change.sequenceNumber << " of writer "
+                                             << change.writerGUID << ": longer than "
+                                             << kLongestMessage
+                                             << " bytes. Further ones are dropped without a line.");
+  }
+  library().gap(&reader, change.writerGUID, change.sequenceNumber,
+                SequenceNumberSet_t(change.sequenceNumber + 1));
 }
 
 // The library's loop begins at the begin of the gap, even if that is long past.
@@ -224,7 +256,8 @@ bool StatefulReader::processGapMsg(const GUID_t& writer, const SequenceNumber_t&
 // After a message with the number 2^62 the library would count all before it as missing.
 bool StatefulReader::processDataMsg(CacheChange_t* change) {
   if (!has_plausible_length(*change) ||
-      !is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced))
+      !is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced) ||
+      !has_room(*this, *change))
     return false;
   return library().data(this, change);
 }
@@ -232,8 +265,13 @@ bool StatefulReader::processDataMsg(CacheChange_t* change) {
 bool StatefulReader::processDataFragMsg(CacheChange_t* change, std::uint32_t sample_size,
                                         std::uint32_t first_fragment, std::uint16_t fragments) {
   if (!has_its_fragments(*change, sample_size, first_fragment, fragments) ||
-      !is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced))
+      !is_plausible(*this, change->writerGUID, change->sequenceNumber, most_announced) ||
+      !has_room(*this, *change))
     return false;
+  if (sample_size > kLongestMessage) {
+    skip_message(*this, *change);
+    return false;
+  }
   return library().fragment(this, change, sample_size, first_fragment, fragments);
 }
 

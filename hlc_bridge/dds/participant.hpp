@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hlc_bridge/dds/presence.hpp"
 #include "hlc_bridge/dds/transport.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
 #include "planner/coordination/messages.hpp"
@@ -51,6 +52,10 @@ struct ParticipantOptions {
   /// an invalid entry, or was lost (Reader::dropped, Reader::lost). It must only queue if log lines
   /// are themselves published on a topic.
   std::function<void(const std::string& line)> on_loss{};
+  /// Called on a DDS thread before a received message is passed on: false if those of its publisher
+  /// that wait to be read leave no room for so many bytes; the message is then dropped. It must not
+  /// wait. Empty: all are passed on.
+  std::function<bool(const ParticipantKey& publisher, std::size_t bytes)> admits{};
   /// Called for every message after it was accepted for publishing, on the publishing thread. It
   /// must not wait.
   std::function<void(const PublishedMessage& message)> on_published{};

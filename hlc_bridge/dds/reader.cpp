@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "hlc_bridge/dds/drop_log.hpp"
 #include "hlc_bridge/dds/endpoint_qos.hpp"
 #include "hlc_bridge/dds/reader_endpoint.hpp"
 #include "hlc_bridge/dds/sender_check.hpp"
@@ -10,15 +11,23 @@
 namespace hlc::dds {
 namespace {
 
-// Converts, and passes on what is valid and of its sender.
+// Converts, and passes on what is valid, of its sender, and admitted.
 template <class Message>
 auto converting(std::function<void(const Message&)> on_message, SenderOf<Message> sender,
-                SenderCheck check) {
-  return [on_message = std::move(on_message), sender = std::move(sender), check = std::move(check)](
+                const std::shared_ptr<const ParticipantCore>& core, const std::string& topic) {
+  using Type = typename Wire<Message>::Type;
+  const auto& admits = core->options().admits;
+  return [on_message = std::move(on_message), sender = std::move(sender), admits,
+          check = SenderCheck{core, topic}, excess = DropLog{core, topic}](
              const void* sample, const frtps::GUID_t& writer) mutable -> ReaderEndpoint::Fault {
-    const auto incoming = from_wire(*static_cast<const typename Wire<Message>::Type*>(sample));
+    const Type& wire = *static_cast<const Type*>(sample);
+    const auto incoming = from_wire(wire);
     if (!incoming.message) return {.invalid = incoming.invalid};
     if (sender && !check.accepts(writer, sender(*incoming.message))) return {.is_of_another = true};
+    if (admits && !admits(key_of(writer.guidPrefix), Type::getCdrSerializedSize(wire))) {
+      excess.log(writer, "as many as a process stores of one publisher are not read yet");
+      return {.is_in_excess = true};
+    }
     on_message(*incoming.message);
     return {.invalid = incoming.invalid};
   };
@@ -33,8 +42,8 @@ Reader<Message>::Reader(Participant& participant, const Topic<Message>& topic,
     : endpoint_{std::make_unique<ReaderEndpoint>(
           participant.core(), topic.name, type_support<Message>(participant.options().transport),
           topic_qos(topic.id, participant.options().role, participant.options().transport).reader,
-          converting<Message>(std::move(on_message), std::move(sender),
-                              SenderCheck{participant.core(), topic.name}),
+          converting<Message>(std::move(on_message), std::move(sender), participant.core(),
+                              topic.name),
           std::move(on_matched_change))} {}
 
 template <class Message>

@@ -52,8 +52,8 @@ class Reader {
   [[nodiscard]] std::uint64_t dropped() const;
   /// Messages dropped so far since they were not published by their sender.
   [[nodiscard]] std::uint64_t of_others() const;
-  /// Messages that the history could not hold or the transport lost (reliable topics: should stay
-  /// 0).
+  /// Messages that the history could not hold, the transport lost, or the process did not admit
+  /// (reliable topics: should stay 0).
   [[nodiscard]] std::uint64_t lost() const;
 
  private:

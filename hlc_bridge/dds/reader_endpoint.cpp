@@ -42,6 +42,7 @@ void ReaderEndpoint::on_data_available(fdds::DataReader* reader) {
       if (!info.valid_data || core_->is_own(writer)) continue;
       const Fault fault = on_sample_(sample.get(), writer);
       if (fault.is_of_another) ++of_others_;
+      if (fault.is_in_excess) ++lost_;
       if (fault.invalid > 0 && dropped_.fetch_add(fault.invalid) == 0) {
         log(*reader, "invalid content received and dropped (logged once)");
       }

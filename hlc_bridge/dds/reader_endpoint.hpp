@@ -14,11 +14,12 @@ namespace hlc::dds {
 /// A Fast DDS reader of any type. Only sources of this folder include this file.
 class ReaderEndpoint : private fdds::DataReaderListener {
  public:
-  /// What is wrong with a sample: its number of invalid entries, and that it may not be of its
-  /// publisher.
+  /// What is wrong with a sample: its number of invalid entries, that it may not be of its
+  /// publisher, and that it was not admitted (ParticipantOptions::admits).
   struct Fault {
     std::uint64_t invalid{};
     bool is_of_another{};
+    bool is_in_excess{};
   };
 
   /// `on_sample(sample, writer)`: `sample` is of the type's generated class.

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <set>
 #include <string>
 
+#include "hlc_bridge/dds/drop_log.hpp"
 #include "hlc_bridge/dds/participant_core.hpp"
 
 namespace hlc::dds {
@@ -18,20 +17,15 @@ namespace hlc::dds {
 /// thread-safe. Only sources of this folder include this file.
 class SenderCheck {
  public:
-  SenderCheck(std::shared_ptr<const ParticipantCore> core, std::string topic);
+  SenderCheck(std::shared_ptr<const ParticipantCore> core, const std::string& topic);
 
   /// False: the message is to be dropped, since another participant than `sender` published it.
-  /// Logged once per participant, of which kMostLogged are.
+  /// Logged once per participant.
   [[nodiscard]] bool accepts(const frtps::GUID_t& writer, const std::string& sender);
 
  private:
-  static constexpr std::size_t kMostLogged = 8;
-
-  void log(const frtps::GUID_t& writer, const std::string& names, const std::string& sender);
-
   std::shared_ptr<const ParticipantCore> core_;
-  std::string topic_;
-  std::set<frtps::GuidPrefix_t> logged_;
+  DropLog log_;
 };
 
 }  // namespace hlc::dds

@@ -17,6 +17,8 @@ namespace {
 constexpr Nanoseconds kStopRequestWait = kNanosecondsPerSecond;
 constexpr Nanoseconds kDrawnPeriods = 3;  // how long a step's drawings stay on the map
 constexpr Nanoseconds kAtOnce = 0;        // a wake-up in the past
+/// A middleware waits for the answer to each list, or for its deadline.
+constexpr std::size_t kMostLists = 64;
 
 Nanoseconds step_ns(const controller::Controller& controller) {
   return static_cast<Nanoseconds>(std::llround(1e9 * controller.subgraph().automaton().step_s));
@@ -50,6 +52,11 @@ HlcMachine::HlcMachine(const HlcSettings& settings,
 
 void HlcMachine::on(Event event) {
   std::visit([this](auto& what) { take(std::move(what)); }, event);
+}
+
+void HlcMachine::take(VehicleStateList&& list) {
+  lists_.push_back(std::move(list));
+  if (lists_.size() > kMostLists) lists_.pop_front();
 }
 
 void HlcMachine::take(const SystemTrigger& trigger) {

@@ -107,7 +107,7 @@ class HlcMachine {
   };
 
   void take(const HlcPeers& peers) { life_.receive(peers); }
-  void take(VehicleStateList&& list) { lists_.push_back(std::move(list)); }
+  void take(VehicleStateList&& list);
   void take(const SystemTrigger& trigger);
   void take(const RunState& state);
   void take(const coordination::Traffic& traffic);
@@ -152,7 +152,7 @@ class HlcMachine {
   HlcActions actions_;  ///< since the last advance
 
   machine::StampCheck stamp_check_;     ///< of lists
-  std::deque<VehicleStateList> lists_;  ///< not answered yet
+  std::deque<VehicleStateList> lists_;  ///< not answered yet, the newest kMostLists
   Phase phase_{Phase::kIdle};
   Current current_;  ///< in all phases but kIdle
   Ending ending_;

@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace hlc::high_level_controller {
+namespace {
+
+/// It quotes the request, whose texts are as long as its sender likes, and is logged.
+constexpr std::size_t kLongestRefusal = 1000;
+
+}  // namespace
 
 PreparedRequest prepare(const RequestBase& base, const AutomatonRequest& request,
                         WeightDesign* weights, const std::stop_token& stop) {
@@ -23,7 +29,7 @@ PreparedRequest prepare(const RequestBase& base, const AutomatonRequest& request
     }
     prepared.choice = std::move(choice);
   } catch (const std::exception& error) {
-    prepared.refusal = error.what();
+    prepared.refusal = std::string(error.what()).substr(0, kLongestRefusal);
   }
   return prepared;
 }

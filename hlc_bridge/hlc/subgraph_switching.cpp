@@ -48,7 +48,7 @@ void SubgraphSwitching::receive(const PreparedRequest& prepared) {
 }
 
 void SubgraphSwitching::prepare_next(HlcActions& actions) {
-  if (is_in_work_ || waiting_.empty()) return;
+  if (is_in_work_ || !has_next()) return;
   is_in_work_ = true;
   actions.add(PrepareRequest{std::move(waiting_.front())});
   waiting_.pop_front();

@@ -25,12 +25,13 @@ class SubgraphSwitching {
   [[nodiscard]] RequestBase request_base(const controller::Controller& controller) const;
 
   /// Requests are prepared in order, one at a time; of more than kMaxWaiting the first are dropped.
+  /// As many, and the one in work, are prepared between two steps: the rest wait for the next one.
   void receive(const AutomatonRequest& request);
   void receive(const PreparedRequest& prepared);
   /// At every advance.
   void prepare_next(HlcActions& actions);
-  /// A request is queued or being prepared.
-  [[nodiscard]] bool is_preparing() const { return is_in_work_ || !waiting_.empty(); }
+  /// A request is being prepared, or is the next one.
+  [[nodiscard]] bool is_preparing() const { return is_in_work_ || has_next(); }
 
   /// Before every step of the controller, also before the experiment has begun: switches the
   /// controller.
@@ -48,6 +49,10 @@ class SubgraphSwitching {
   static constexpr std::size_t kMaxWaiting = 16;
 
  private:
+  [[nodiscard]] bool has_next() const {
+    return !waiting_.empty() && prepared_.size() <= kMaxWaiting;
+  }
+
   policy::SubgraphSelector selector_;
   Reconfiguration reconfiguration_;
   std::deque<AutomatonRequest> waiting_;

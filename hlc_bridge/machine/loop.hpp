@@ -10,6 +10,7 @@
 
 #include "hlc_bridge/machine/log_line.hpp"
 #include "hlc_bridge/machine/machine.hpp"
+#include "hlc_bridge/machine/mail_budget.hpp"
 #include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
@@ -42,6 +43,10 @@ class Loop {
       : node_id_(std::move(node_id)), machine_(std::move(machine)), pacing_(std::move(pacing)) {}
 
   void post(Event event) { mail_.push_back(std::move(event)); }
+  /// Before a message of another process is posted. False: too many of this publisher already wait.
+  [[nodiscard]] bool admits(const MailBudget::Publisher& publisher, std::size_t bytes) {
+    return budget_.admits(publisher, bytes);
+  }
   /// Work, independent of what the machine awaits.
   void post_urgent(Event event) {
     post(std::move(event));
@@ -75,6 +80,7 @@ class Loop {
   [[nodiscard]] std::optional<int> iterate(Host& host, const Clocks& clocks, const Locked& locked) {
     const bool has_presence_changed = locked([this] {
       std::swap(mail_, read_);
+      budget_.reset();
       is_urgent_ = false;
       return std::exchange(has_presence_changed_, false);
     });
@@ -129,6 +135,7 @@ class Loop {
   // Under the owner's lock:
   std::unique_ptr<Pacing> pacing_;
   std::vector<Event> mail_;
+  MailBudget budget_;
   bool is_urgent_{};
   bool has_presence_changed_{true};
   std::size_t enough_{1};  ///< events that are work

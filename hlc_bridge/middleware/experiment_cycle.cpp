@@ -57,6 +57,12 @@ void ExperimentCycle::prepare_next(Nanoseconds now, MiddlewareActions& actions) 
   }
 }
 
+void ExperimentCycle::take(GoalState goal) {
+  if (num_goals_ == kMostGoals) return;
+  ++num_goals_;
+  goals_.push_back(std::move(goal));
+}
+
 void ExperimentCycle::forward_goals(MiddlewareActions& actions) {
   if (goals_.empty() || !unready_controllers().empty()) return;
   for (GoalState& goal : goals_) actions.emplace_back(std::move(goal));

@@ -33,8 +33,9 @@ class ExperimentCycle {
   void take(const SystemTrigger& trigger);
   /// Counts between experiments.
   void take(const Parameter& parameter);
-  /// A goal for the controllers, withheld until all of them are ready.
-  void take(GoalState goal) { goals_.push_back(std::move(goal)); }
+  /// A goal for the controllers, withheld until all of them are ready; of more than kMostGoals, in
+  /// all experiments, the last are dropped: their writer keeps each for late joiners.
+  void take(GoalState goal);
 
   /// The first experiment. @return why it cannot be served; empty if it can
   /// @pre parameters.complete()
@@ -64,6 +65,9 @@ class ExperimentCycle {
   /// Commands are not forwarded to vehicles.
   [[nodiscard]] bool withholds_commands() const { return is_between_ || is_stopped_; }
 
+  /// A vehicle has one.
+  static constexpr std::size_t kMostGoals = 256;
+
  private:
   [[nodiscard]] std::vector<std::string> unready_controllers() const;
 
@@ -74,6 +78,7 @@ class ExperimentCycle {
   NextExperiment next_;
   std::set<std::uint8_t> ready_;
   std::vector<GoalState> goals_;
+  std::size_t num_goals_{};
   std::optional<machine::WaitNotice> notice_;
   bool is_triggered_{};
   Nanoseconds starts_at_{};  ///< of the first trigger

@@ -74,6 +74,8 @@ dds::ParticipantOptions HlcProcess::on_domain(std::optional<int> domain, dds::Do
           [this](const std::string& line) {
             shell_.post(high_level_controller::LostMessage{line});
           },
+      .admits = [this](const auto& publisher,
+                       std::size_t bytes) { return shell_.admits(publisher, bytes); },
       .on_published = options_.on_published};
 }
 

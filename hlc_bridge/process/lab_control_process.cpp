@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kSecondsPerNanosecond = 1e-9;
 
-dds::ParticipantOptions on_domain(const LabControlOptions& options, dds::DomainRole role) {
+dds::ParticipantOptions on_domain(const LabControlOptions& options, dds::DomainRole role,
+                                  Shell<lab_control::LabControlMachine>& shell) {
   const bool lab = role == dds::DomainRole::kLab;
   return {.name = kLabControlName,
           .domain_id = lab ? options.lab_domain : options.controller_domain,
@@ -29,6 +30,8 @@ dds::ParticipantOptions on_domain(const LabControlOptions& options, dds::DomainR
           .peers = lab ? std::vector<std::string>{} : options.controller_peers,
           .version = options.version,
           .on_loss = [](const std::string& line) { log(kLabControlName, machine::warning(line)); },
+          .admits = [&shell](const auto& publisher,
+                             std::size_t bytes) { return shell.admits(publisher, bytes); },
           .on_published = options.on_published};
 }
 
@@ -74,8 +77,9 @@ LabControlProcess::LabControlProcess(LabControlOptions options)
              lab_control::LabControlMachine(options_.make_run(options_.run),
                                             ProgressLine::interval(options_.is_terminal)),
              options_.time.make_pacing(options_.run.startup_timeout, time::wall_time_now())),
-      lab_(on_domain(options_, dds::DomainRole::kLab), [this] { shell_.presence_changed(); }),
-      controllers_(on_domain(options_, dds::DomainRole::kController),
+      lab_(on_domain(options_, dds::DomainRole::kLab, shell_),
+           [this] { shell_.presence_changed(); }),
+      controllers_(on_domain(options_, dds::DomainRole::kController, shell_),
                    [this] { shell_.presence_changed(); }),
       writers_(lab_, controllers_, [this] { shell_.presence_changed(); }),
       ready_reader_(lab_, dds::topics::ready_status(),

@@ -21,7 +21,8 @@ middleware::MiddlewareSettings settings_of(const MiddlewareOptions& options) {
           .rules = options.rules};
 }
 
-dds::ParticipantOptions on_domain(const MiddlewareOptions& options, dds::DomainRole role) {
+dds::ParticipantOptions on_domain(const MiddlewareOptions& options, dds::DomainRole role,
+                                  Shell<middleware::MiddlewareMachine>& shell) {
   const bool lab = role == dds::DomainRole::kLab;
   return {.name = middleware_name(options.vehicle_ids),
           .domain_id = lab ? options.lab_domain : options.local_domain,
@@ -32,6 +33,8 @@ dds::ParticipantOptions on_domain(const MiddlewareOptions& options, dds::DomainR
           .version = options.version,
           .on_loss =
               [id = options.node_id](const std::string& line) { spdlog::warn("{}: {}", id, line); },
+          .admits = [&shell](const auto& publisher,
+                             std::size_t bytes) { return shell.admits(publisher, bytes); },
           .on_published = options.on_published};
 }
 
@@ -120,8 +123,8 @@ MiddlewareProcess::MiddlewareProcess(MiddlewareOptions options)
       shell_(options_.node_id, middleware::MiddlewareMachine{settings_of(options_)},
              options_.time.make_pacing(time::nanoseconds(options_.startup_timeout),
                                        time::wall_time_now())),
-      lab_(on_domain(options_, dds::DomainRole::kLab), on_presence()),
-      local_(on_domain(options_, dds::DomainRole::kLocal), on_presence()),
+      lab_(on_domain(options_, dds::DomainRole::kLab, shell_), on_presence()),
+      local_(on_domain(options_, dds::DomainRole::kLocal, shell_), on_presence()),
       lab_control_(*this),
       controllers_(*this) {
   for (const std::uint8_t id : options_.vehicle_ids) {

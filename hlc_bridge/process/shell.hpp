@@ -46,6 +46,10 @@ class Shell {
   void post(Event event) {
     signal_.post([&] { loop_.post(std::move(event)); });
   }
+  /// ParticipantOptions::admits: messages that are not admitted are not posted.
+  [[nodiscard]] bool admits(const machine::MailBudget::Publisher& publisher, std::size_t bytes) {
+    return signal_.locked([&] { return loop_.admits(publisher, bytes); });
+  }
   /// Wakes the machine at once, independent of what it awaits.
   void post_urgent(Event event) {
     signal_.post([&] { loop_.post_urgent(std::move(event)); });

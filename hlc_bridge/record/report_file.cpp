@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
+#include <utility>
 
 #include "planner/automaton/trim_format.hpp"
 #include "planner/common/csv.hpp"
@@ -230,21 +231,24 @@ ReportFile::ReportFile(std::filesystem::path file, GrowingFile::OnFailure on_fai
 }
 
 void ReportFile::append(const ReportRecord& record) {
-  records_.push_back(record);
-  records_.back().report.certificate.reset();  // of no use here, and the largest part
-  file_.write(line(record));
+  std::string text = line(record);
+  file_.write(text);
+  bytes_ += sizeof(Line) + text.size();
+  if (bytes_ > kMostKept) {
+    lines_ = {};
+  } else {
+    lines_.push_back({record.report.step, record.report.vehicle, std::move(text)});
+  }
 }
 
 std::optional<std::string> ReportFile::finish() {
-  std::stable_sort(records_.begin(), records_.end(),
-                   [](const ReportRecord& a, const ReportRecord& b) {
-                     return std::tuple{a.report.step, a.report.vehicle} <
-                            std::tuple{b.report.step, b.report.vehicle};
-                   });
+  if (bytes_ > kMostKept) return file_.close();
+  std::ranges::stable_sort(lines_, {}, [](const Line& one) {
+    return std::tuple{one.step, one.vehicle};
+  });
   std::string text = std::string{kHeading} + "\n";
-  for (const ReportRecord& record : records_) {
-    text += line(record);
-  }
+  text.reserve(text.size() + bytes_);
+  for (const Line& one : lines_) text += one.text;
   file_.replace(text);
   return file_.close();
 }

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/integration/forger.hpp"
@@ -12,14 +11,6 @@ namespace hlc::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-std::string trace_of(LabProcesses& lab) {
-  lab.start_all();
-  EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
-  EXPECT_EQ(lab.summarize(), 0) << lab.log("summarize");
-  const std::string summary = read_text(lab.folder() / "summary.json");
-  return nlohmann::json::parse(summary, nullptr, false).value("trace_sha256", "");
-}
 
 void expect_forger_named(LabProcesses& lab) {
   for (const std::string& name : lab.names()) {

@@ -1,7 +1,11 @@
 #include "tests/integration/lab_processes.hpp"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "tests/support/folders.hpp"
@@ -124,6 +128,14 @@ int LabProcesses::summarize() {
   command.insert(command.end(), scenario_flags_.begin(), scenario_flags_.end());
   ChildProcess program(command, log_file("summarize"));
   return program.wait_for(std::chrono::seconds(60)).value_or(-1);
+}
+
+std::string trace_of(LabProcesses& lab) {
+  lab.start_all();
+  EXPECT_THAT(lab.still_running_after(std::chrono::seconds(120)), testing::IsEmpty());
+  EXPECT_EQ(lab.summarize(), 0) << lab.log("summarize");
+  const std::string summary = read_text(lab.folder() / "summary.json");
+  return nlohmann::json::parse(summary, nullptr, false).value("trace_sha256", "");
 }
 
 }  // namespace hlc::test

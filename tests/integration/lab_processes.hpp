@@ -52,4 +52,7 @@ class LabProcesses : private DomainReservation, public RunProcesses {
   std::vector<std::string> scenario_flags_;
 };
 
+/// Drives the whole run, which must succeed. trace_sha256 of its summary.
+[[nodiscard]] std::string trace_of(LabProcesses& lab);
+
 }  // namespace hlc::test

@@ -7,7 +7,6 @@
 #include <csignal>
 #include <cstring>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
@@ -47,14 +46,6 @@ Reports reports_in(const std::filesystem::path& run_folder) {
     reports.emplace(record.report.vehicle.value, record.report.step.value);
   }
   return reports;
-}
-
-std::string trace_of(LabProcesses& lab) {
-  lab.start_all();
-  EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
-  EXPECT_EQ(lab.summarize(), 0) << lab.log("summarize");
-  const std::string summary = read_text(lab.folder() / "summary.json");
-  return nlohmann::json::parse(summary, nullptr, false).value("trace_sha256", "");
 }
 
 TEST(Messages, OfEveryProcessAreRecordedAndTheRunIsTheSame) {

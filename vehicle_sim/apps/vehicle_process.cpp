@@ -114,6 +114,8 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
             .version = options_.version,
             .on_loss =
                 [this](const std::string& line) { process::log(name_, machine::warning(line)); },
+            .admits = [this](const auto& publisher,
+                             std::size_t bytes) { return shell_.admits(publisher, bytes); },
             .on_published = options_.on_published},
            [this] { shell_.presence_changed(); }),
       ready_writer_(lab_, dds::topics::ready_status(), [this] { shell_.presence_changed(); }),

@@ -120,8 +120,12 @@ TEST(Participant, SaysItsVersionToOthers) {
 
 TEST(Participant, WaitForEndsAtTheDeadline) {
   const test::DomainReservation domain;
-  Participant alone{on_loopback("alone", domain.first(), DomainRole::kController)};
-  EXPECT_FALSE(alone.wait_for({"absent"}, std::chrono::steady_clock::now()));
+  Participant here{on_loopback("here", domain.first(), DomainRole::kController)};
+  const Participant present{on_loopback("present", domain.first(), DomainRole::kController)};
+  EXPECT_TRUE(here.wait_for({"present"}, soon()));
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds{50};
+  EXPECT_FALSE(here.wait_for({"present", "absent"}, deadline));
+  EXPECT_GE(std::chrono::steady_clock::now(), deadline);
 }
 
 TEST(Participant, SeesNobodyOfAnotherDomain) {

@@ -264,6 +264,37 @@ TEST_F(HlcMachineStep, OfTooManyRequestsTheFirstAreDropped) {
   EXPECT_EQ(prepared[1], 3U);
 }
 
+// Of requests without end, each answered at once, the answers were stored until the next step.
+TEST_F(HlcMachineStep, BetweenTwoStepsABoundedNumberOfRequestsIsPrepared) {
+  DrivenMachine one(real_time());
+  one.on(peers());
+  start(one);
+  std::size_t num_prepared = 0;
+  for (std::uint64_t id = 1; id <= 1000; ++id) {
+    one.on(slow(id));
+    for (const PrepareRequest& next : one.take<PrepareRequest>()) {
+      one.on(PreparedRequest{.request = next.request, .choice = {}, .refusal = "no"});
+      ++num_prepared;
+    }
+  }
+  EXPECT_EQ(num_prepared, 1 + SubgraphSwitching::kMaxWaiting);
+  one.next_list(standing());
+  EXPECT_THAT(one.take<AutomatonAnswer>(), SizeIs(num_prepared));
+  one.on(slow(1001));
+  EXPECT_THAT(one.take<PrepareRequest>(), SizeIs(1)) << "and goes on";
+}
+
+TEST_F(HlcMachineStep, InLogicalTimeOfListsWithoutEndTheNewestAreAnswered) {
+  DrivenMachine one(logical_time());
+  one.on(peers());
+  start(one);
+  for (std::uint64_t i = 1; i <= 1000; ++i) one.feed(list_of(one.step() + i, standing()));
+  for (int i = 0; i < 1000; ++i) static_cast<void>(one.advance());
+  const std::vector<ReportRecord> reports = one.take<ReportRecord>();
+  ASSERT_EQ(reports.size(), 64U);
+  EXPECT_EQ(reports.back().report.step.value, one.step() + 1000);
+}
+
 TEST_F(HlcMachineStep, InLogicalTimeTheStepWaitsForWhatIsBeingPreparedButNotForEver) {
   DrivenMachine one(logical_time());
   one.on(peers());

@@ -36,6 +36,15 @@ class ExperimentCycleTest : public testing::Test {
   Nanoseconds now_{};
 };
 
+TEST_F(ExperimentCycleTest, OfGoalsWithoutEndTheFirstAreForwarded) {
+  ExperimentCycle cycle{{1}, kListOffset, false};
+  for (std::size_t i = 0; i < 2 * ExperimentCycle::kMostGoals; ++i) cycle.take(GoalState{});
+  ready(cycle, 1);
+  EXPECT_EQ(count<GoalState>(period(cycle)), ExperimentCycle::kMostGoals);
+  cycle.take(GoalState{});
+  EXPECT_EQ(count<GoalState>(period(cycle)), 0U);
+}
+
 TEST_F(ExperimentCycleTest, AnnouncesReadinessOnceAllControllersAreReadyUntilTheTrigger) {
   ExperimentCycle cycle{{1, 2}, kListOffset, false};
   ASSERT_EQ(cycle.begin(run_parameters(200, {1, 2})), "");

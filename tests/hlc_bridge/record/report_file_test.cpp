@@ -130,6 +130,23 @@ TEST(ReportFile, ReadsBackEveryFieldAndSortsAtTheEnd) {
   }
 }
 
+TEST(ReportFile, OfAReporterWithoutEndStaysInTheOrderOfArrivalAndIsNotKeptInMemory) {
+  const test::TemporaryFolder folder;
+  ReportFile file{folder / "reports.csv", kUnexpected};
+  std::mt19937_64 random{1};
+  ReportRecord record = random_record(random, 0, 1);
+  record.report.maneuver = std::string(60'000, 'm');
+  const std::size_t count = ReportFile::kMostKept / 60'000 + 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    record.report.step = {count - i};
+    file.append(record);
+  }
+  EXPECT_EQ(file.finish(), std::nullopt);
+  const std::vector<ReportRecord> read = read_reports(folder / "reports.csv");
+  ASSERT_EQ(read.size(), count);
+  EXPECT_EQ(read.front().report.step.value, count);
+}
+
 TEST(ReportFile, RefusesWhatCannotBeAndSaysWhatCan) {
   const test::TemporaryFolder folder;
   ReportFile file{folder / "reports.csv", kUnexpected};
