@@ -36,6 +36,7 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --transport NAME        loopback (default) or lab
   --dds_domain N          lab domain; the vehicles take the next ones (--share machine: one), the controllers N + 50
                           (default: a free block)
+  --security DIR          DDS security with the identities of make_security.sh (default: HLC_SECURITY, or none)
   --dump-problems DIR     write each planning problem to a JSON file in this new or empty folder, for plan_problem; in
                           real time this may delay steps
   --page BOOL             true (default): the run folder gets run.html, the whole run to be watched in a browser
@@ -61,7 +62,7 @@ source "$root/launch_scripts/domain_locks.sh"
 scenario=paper_three_cars profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
 simulated_time=true noise_seed="" gains_scale="" stamps="" on_death=stop transport=loopback dds_domain="" out="" preset=release
-bin="" build=true share="" page=true messages=true view=false
+bin="" build=true share="" page=true messages=true view=false security=${HLC_SECURITY-}
 startup_timeout_s=20
 while (($#)); do
   case "$1" in
@@ -82,7 +83,7 @@ while (($#)); do
   case "$name" in
     scenario | profile | engine | priorities | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
       simulated_time | noise_seed | gains_scale | stamps | on_death | transport | dds_domain | out | preset | bin | \
-      share | page | messages | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+      share | page | messages | security | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
 done
@@ -111,7 +112,9 @@ in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 [[ -z $gains_scale || $stamps != lab ]] || fail "--stamps = lab with --gains_scale, must be exact: the lab's follower has no gains"
 [[ -z $gains_scale ]] || stamps=exact
 # Files and folders of any name: none begins with a dash.
-for name in out dump_problems map bin; do [[ -z ${!name} || ${!name} == /* ]] || printf -v "$name" '%s' "$PWD/${!name}"; done
+for name in out dump_problems map security bin; do [[ -z ${!name} || ${!name} == /* ]] || printf -v "$name" '%s' "$PWD/${!name}"; done
+[[ -z $security || -r $security/authority.pem ]] ||
+  fail "--security = $security: no authority.pem, must be a folder of make_security.sh"
 case "$preset" in
   release | debug | asan | tsan) ;;
   *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
@@ -304,11 +307,13 @@ end_early() {
 trap end_early INT TERM HUP
 trap end_all EXIT # also when this script fails
 
-flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" --out "$out")
+secured=()
+[[ -z $security ]] || secured=(--security "$security")
+flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" --out "$out" "${secured[@]}")
 if $view; then # whatever becomes of it, the run goes on
   view_log=$out/logs/view.txt
   with_me "$bin/view" --dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" \
-    --logs "$out/logs" "${choices[@]}" </dev/null >"$view_log" 2>&1 &
+    --logs "$out/logs" "${secured[@]}" "${choices[@]}" </dev/null >"$view_log" 2>&1 &
   view_process=$!
   deadline=$((SECONDS + startup_timeout_s))
   while ! grep -qs '^view: http' "$view_log" && any_runs "$view_process" && ((SECONDS < deadline)); do sleep 0.05; done

@@ -31,6 +31,7 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --discovery_mode MODE   simple (default: multicast) or client, with the address of the lab domain's discovery server:
                           --discovery_server_id ID, --discovery_server_ip ADDRESS, --discovery_server_port PORT
   --controller_peers A,B  addresses of the other machines, asked on the controllers' domain besides multicast
+  --security DIR          DDS security with the identities of make_security.sh (default: HLC_SECURITY, or none)
   --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written)
   --pose X,Y,YAW          initial pose of the simulated car, of each of several (default: the scenario's start)
   --noise_seed N          measurement noise from this seed, one for each of several (default: none)
@@ -57,10 +58,10 @@ id="" scenario="" profile=default engine="" priorities="" dump_problems="" subgr
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
-noise_seed="" gains_scale="" stamps="" messages=false on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
+security=${HLC_SECURITY-} noise_seed="" gains_scale="" stamps="" messages=false on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
 kept_flags=(id scenario profile engine priorities dump_problems subgraph policy map cars seed routes simulated_time transport
   discovery_mode discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
-  controller_domain pose noise_seed gains_scale stamps messages on_death startup_timeout_s shared_by)
+  controller_domain security pose noise_seed gains_scale stamps messages on_death startup_timeout_s shared_by)
 # Whose programs run is never read from a run folder: --bin is not kept.
 take_flags() {
   local name value
@@ -96,7 +97,7 @@ if [[ -n $only && -n $out && -e $flags_file ]]; then
   take_flags "$@"
 fi
 # Files and folders of any name: none begins with a dash.
-for name in out dump_problems map bin; do [[ -z ${!name} || ${!name} == /* ]] || printf -v "$name" '%s' "$PWD/${!name}"; done
+for name in out dump_problems map security bin; do [[ -z ${!name} || ${!name} == /* ]] || printf -v "$name" '%s' "$PWD/${!name}"; done
 case "$only" in
   "" | hlc | middleware | vehicle) ;;
   *) fail "--only = $only, must be one of hlc, middleware, vehicle" ;;
@@ -183,7 +184,7 @@ fi
 common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transport="$transport"
   --startup_timeout_s="$startup_timeout_s")
 ! $messages || common+=(--messages="$out/messages")
-for name in discovery_mode discovery_server_id discovery_server_ip discovery_server_port; do
+for name in discovery_mode discovery_server_id discovery_server_ip discovery_server_port security; do
   [[ -z ${!name} ]] || common+=("--$name=${!name}")
 done
 vehicle=(--vehicle_ids="$id" --pose="$pose" --record="$out/vehicle_{id}.csv" "${appends[@]}")

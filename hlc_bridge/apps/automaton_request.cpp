@@ -170,6 +170,7 @@ hlc::dds::ParticipantOptions participant_options(const Flags& flags) {
   options.transport = hlc::dds::transport_from_name(flags.network.transport);
   options.peers = flags.controller_peers;
   options.version = hlc::apps::program_version();
+  options.security = flags.network.security;
   return options;
 }
 

@@ -46,6 +46,7 @@ struct NetworkFlags {
   std::string discovery_server_id;
   std::string discovery_server_ip;
   std::string discovery_server_port;
+  std::filesystem::path security;
   int startup_timeout_s{30};
   std::filesystem::path messages;
 
@@ -74,6 +75,10 @@ struct NetworkFlags {
     app.add_option("--discovery_server_ip", discovery_server_ip, "IPv4 address");
     app.add_option("--discovery_server_port", discovery_server_port,
                    std::string("port; default, as in the lab: ") + kDiscoveryServerPort);
+    app.add_option("--security", security,
+                   "folder of make_security.sh: DDS security, only with processes of the same "
+                   "folder; default: none")
+        ->envname("HLC_SECURITY");
   }
 
   /// @throws std::invalid_argument naming the flag

@@ -114,6 +114,7 @@ hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::Vehicle
     spdlog::warn("{}: {}", options.node_id, warning);
   }
   options.discovery_server = network.discovery_server();
+  options.security = network.security;
   hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
   options.thread_priority = flags.thread_priority;

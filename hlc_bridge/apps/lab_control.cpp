@@ -96,6 +96,7 @@ hlc::process::LabControlOptions process_options(const Flags& flags) {
     spdlog::warn("{}", warning);
   }
   options.discovery_server = flags.network.discovery_server();
+  options.security = flags.network.security;
   hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
   if (flags.network.simulated_time) {

@@ -60,6 +60,7 @@ hlc::doctor::ListenOptions listen_options(const Flags& flags) {
                                        ? *flags.controller_domain
                                        : hlc::dds::default_controller_domain(network.dds_domain)};
   options.discovery_server = network.discovery_server();
+  options.security = network.security;
   hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
   options.time = kPatience + std::chrono::milliseconds{static_cast<int>(1000.0 * flags.listen_s)};

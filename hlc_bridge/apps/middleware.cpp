@@ -68,6 +68,7 @@ hlc::process::MiddlewareOptions process_options(const Flags& flags) {
     spdlog::warn("{}: {}", options.node_id, warning);
   }
   options.discovery_server = flags.network.discovery_server();
+  options.security = flags.network.security;
   const bool is_logical = flags.network.simulated_time;
   const bool beside_lab_programs = options.transport == hlc::dds::Transport::kLab;
   options.time = hlc::machine::run_time(is_logical, beside_lab_programs);

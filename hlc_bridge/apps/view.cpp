@@ -119,6 +119,7 @@ hlc::live::ListenerOptions listener_options(const Flags& flags,
   }
   options.lease = hlc::machine::run_time(network.simulated_time).lease;
   options.discovery_server = network.discovery_server();
+  options.security = network.security;
   hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
   options.vehicle_ids = vehicle_ids;

@@ -321,6 +321,13 @@ void DiscoveryListener::on_participant_discovery(fdds::DomainParticipant* /*own*
                             .is_there = info.status == Info::DISCOVERED_PARTICIPANT});
 }
 
+void DiscoveryListener::onParticipantAuthentication(fdds::DomainParticipant* /*own*/,
+                                                    frtps::ParticipantAuthenticationInfo&& info) {
+  if (info.status == frtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) {
+    on_authenticated(info.guid.guidPrefix);
+  }
+}
+
 void DiscoveryListener::on_subscriber_discovery(fdds::DomainParticipant* /*own*/,
                                                 frtps::ReaderDiscoveryInfo&& info) {
   on_found(FoundEndpoint{.guid = info.info.guid(),

@@ -46,6 +46,8 @@ using LibraryReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 /// Throws if the library lacks one of the functions that are replaced (README.md): otherwise the
 /// process would end at its first heartbeat.
 void find_library_functions();
+/// The same for those of DDS security.
+void find_security_functions();
 /// The library's own errors go to stderr.
 void log_library_errors();
 /// A write never runs a reader's callback in the writing thread.
@@ -74,6 +76,8 @@ class DiscoveryListener : private fdds::DomainParticipantListener {
 
   /// On the library's threads.
   virtual void on_found(const FoundParticipant& participant) = 0;
+  /// With DDS security: the participant has proven its identity.
+  virtual void on_authenticated(const frtps::GuidPrefix_t& participant) = 0;
   virtual void on_found(const FoundEndpoint& endpoint) = 0;
 
   [[nodiscard]] fdds::DomainParticipantListener* as_listener() { return this; }
@@ -81,6 +85,8 @@ class DiscoveryListener : private fdds::DomainParticipantListener {
  private:
   void on_participant_discovery(fdds::DomainParticipant* participant,
                                 frtps::ParticipantDiscoveryInfo&& info) final;
+  void onParticipantAuthentication(fdds::DomainParticipant* participant,
+                                   frtps::ParticipantAuthenticationInfo&& info) final;
   void on_subscriber_discovery(fdds::DomainParticipant* participant,
                                frtps::ReaderDiscoveryInfo&& info) final;
   void on_publisher_discovery(fdds::DomainParticipant* participant,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -48,6 +49,9 @@ struct ParticipantOptions {
   std::vector<std::string> peers{};
   /// Version of the program, published to all others on the domain.
   std::string version{};
+  /// Folder of the identities and rights (security.hpp); empty: without DDS security. With it only
+  /// participants of the same authority are present, each under the name of its identity only.
+  std::filesystem::path security{};
   /// Called on a DDS thread, once per reader and kind, with a line for the log: a message contained
   /// an invalid entry, or was lost (Reader::dropped, Reader::lost). It must only queue if log lines
   /// are themselves published on a topic.

@@ -11,6 +11,7 @@
 #include "hlc_bridge/dds/endpoint_peers.hpp"
 #include "hlc_bridge/dds/library.hpp"
 #include "hlc_bridge/dds/participant_qos.hpp"
+#include "hlc_bridge/dds/security.hpp"
 
 namespace hlc::dds {
 namespace {
@@ -61,6 +62,7 @@ ParticipantCore::ParticipantCore(const ParticipantOptions& options,
   if (participant_ == nullptr) {
     refuse(options_, "the library could not create it (too many participants on this host?)");
   }
+  if (is_secure()) check_own_identity();
   publisher_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
   subscriber_ = participant_->create_subscriber(fdds::SUBSCRIBER_QOS_DEFAULT);
 }
@@ -88,6 +90,13 @@ fdds::Topic& ParticipantCore::topic(const std::string& name, const fdds::TypeSup
   return *topic;
 }
 
+void ParticipantCore::check_own_identity() const {
+  const auto key = key_of_identity(identity_of(options_.name));
+  const frtps::GuidPrefix_t prefix = participant_->guid().guidPrefix;
+  if (key && std::equal(key->begin(), key->end(), std::begin(prefix.value))) return;
+  refuse(options_, "--security: the library is built without DDS security");
+}
+
 bool ParticipantCore::is_own(const frtps::GUID_t& endpoint) const {
   return endpoint.guidPrefix == participant_->guid().guidPrefix;
 }
@@ -104,13 +113,34 @@ void ParticipantCore::add_peers(const std::shared_ptr<EndpointPeers>& peers) {
 }
 
 void ParticipantCore::on_found(const FoundParticipant& participant) {
-  const ParticipantKey key = key_of(participant.prefix);
-  const auto endpoints = update([&] {
-    if (participant.is_there) {
-      presence_.appeared(key, participant.name, participant.user_data);
+  AnnouncedParticipant announced{.key = key_of(participant.prefix),
+                                 .name = participant.name,
+                                 .user_data = participant.user_data};
+  change_presence([&] {
+    if (!participant.is_there) {
+      authenticated_.left(announced.key);
+      presence_.left(announced.key);
+    } else if (!is_secure()) {
+      presence_.appeared(announced.key, announced.name, announced.user_data);
     } else {
-      presence_.left(key);
+      admit(authenticated_.announced(std::move(announced)));
     }
+  });
+}
+
+void ParticipantCore::on_authenticated(const frtps::GuidPrefix_t& participant) {
+  change_presence([&] { admit(authenticated_.authenticated(key_of(participant))); });
+}
+
+void ParticipantCore::admit(const std::optional<AnnouncedParticipant>& participant) {
+  if (participant) {
+    presence_.appeared(participant->key, participant->name, participant->user_data);
+  }
+}
+
+void ParticipantCore::change_presence(const std::function<void()>& change) {
+  const auto endpoints = update([&] {
+    change();
     return endpoints_;
   });
   presence_gate_.enter([&] {

@@ -6,10 +6,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/dds/authenticated_participants.hpp"
 #include "hlc_bridge/dds/fast_dds.hpp"
 #include "hlc_bridge/dds/gate.hpp"
 #include "hlc_bridge/dds/participant.hpp"
@@ -78,7 +80,15 @@ class ParticipantCore : private DiscoveryListener {
 
  private:
   void on_found(const FoundParticipant& participant) override;
+  void on_authenticated(const frtps::GuidPrefix_t& participant) override;
   void on_found(const FoundEndpoint& endpoint) override;
+
+  [[nodiscard]] bool is_secure() const { return !options_.security.empty(); }
+  /// A library without security ignores that it is asked for. Throws std::runtime_error.
+  void check_own_identity() const;
+  /// `change()` under the lock; then notifies all that depend on the presence.
+  void change_presence(const std::function<void()>& change);
+  void admit(const std::optional<AnnouncedParticipant>& participant);
 
   ParticipantOptions options_;
   std::function<void()> on_presence_change_;
@@ -87,6 +97,7 @@ class ParticipantCore : private DiscoveryListener {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   Presence presence_;
+  AuthenticatedParticipants authenticated_;
   std::map<std::pair<PeerKind, std::string>, std::set<frtps::GUID_t>> discovered_;
   std::vector<std::weak_ptr<EndpointPeers>> endpoints_;
 

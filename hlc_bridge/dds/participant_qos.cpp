@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hlc_bridge/dds/library.hpp"
+#include "hlc_bridge/dds/security.hpp"
 
 namespace hlc::dds {
 namespace {
@@ -62,6 +63,10 @@ void set_peers(const ParticipantOptions& options, DomainParticipantQos& qos) {
 void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos) {
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   discovery.discoveryProtocol = frtps::DiscoveryProtocol::SIMPLE;
+  if (options.discovery_server && !options.security.empty()) {
+    throw std::invalid_argument(
+        "--security with --discovery_mode = client, must be simple: the library refuses both");
+  }
   if (!options.discovery_server) {
     set_peers(options, qos);
     return;
@@ -96,6 +101,27 @@ void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos)
   qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(frtps::Locator_t{});
 }
 
+void set_security(const ParticipantOptions& options, DomainParticipantQos& qos) {
+  if (options.security.empty()) return;
+  const SecurityFiles files = security_files(options.security, identity_of(options.name));
+  auto& properties = qos.properties().properties();
+  const auto set = [&](const std::string& name, const std::string& value) {
+    properties.emplace_back("dds.sec." + name, value);
+  };
+  const auto set_file = [&](const std::string& name, const std::filesystem::path& file) {
+    set(name, "file://" + file.string());
+  };
+  set("auth.plugin", "builtin.PKI-DH");
+  set_file("auth.builtin.PKI-DH.identity_ca", files.authority);
+  set_file("auth.builtin.PKI-DH.identity_certificate", files.certificate);
+  set_file("auth.builtin.PKI-DH.private_key", files.key);
+  set("access.plugin", "builtin.Access-Permissions");
+  set_file("access.builtin.Access-Permissions.permissions_ca", files.authority);
+  set_file("access.builtin.Access-Permissions.governance", files.governance);
+  set_file("access.builtin.Access-Permissions.permissions", files.permissions);
+  set("crypto.plugin", "builtin.AES-GCM-GMAC");
+}
+
 }  // namespace
 
 DomainParticipantQos participant_qos(const ParticipantOptions& options) {
@@ -105,6 +131,7 @@ DomainParticipantQos participant_qos(const ParticipantOptions& options) {
   set_transport(options, qos);
   set_lease(options, qos);
   set_discovery(options, qos);
+  set_security(options, qos);
   return qos;
 }
 

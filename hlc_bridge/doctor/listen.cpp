@@ -29,7 +29,8 @@ dds::Participant on_domain(const ListenOptions& options, std::optional<int> doma
        .transport = options.transport,
        .discovery_server = role == dds::DomainRole::kLab ? options.discovery_server : std::nullopt,
        .peers = role == dds::DomainRole::kController ? options.controller_peers
-                                                     : std::vector<std::string>{}});
+                                                     : std::vector<std::string>{},
+       .security = options.security});
 }
 
 void note(const Parameter& parameter, Received& received) {
@@ -57,7 +58,8 @@ Received listen(const ListenOptions& options,
     local.emplace(dds::ParticipantOptions{.name = kName,
                                           .domain_id = *options.domains.local,
                                           .role = dds::DomainRole::kLocal,
-                                          .transport = options.transport});
+                                          .transport = options.transport,
+                                          .security = options.security});
   }
   dds::Writer<ParameterRequest> requests(lab, dds::topics::parameter_request());
   const dds::Reader<Parameter> parameters(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@ struct ListenOptions {
   dds::Transport transport{dds::Transport::kLab};
   dds::Domains domains;  ///< local: empty if the middleware is not to be checked
   std::optional<dds::DiscoveryServer> discovery_server;
+  std::filesystem::path security{};  ///< ParticipantOptions
   /// ParticipantOptions::peers of the controllers' domain
   std::vector<std::string> controller_peers;
   std::chrono::milliseconds time{3000};

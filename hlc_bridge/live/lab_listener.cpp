@@ -15,7 +15,8 @@ dds::ParticipantOptions participant_options(const ListenerOptions& options, dds:
       .domain_id = is_lab ? options.lab_domain : options.controller_domain,
       .role = role,
       .transport = options.transport,
-      .lease = options.lease};
+      .lease = options.lease,
+      .security = options.security};
   if (is_lab) {
     participant.discovery_server = options.discovery_server;
   } else {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <list>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct ListenerOptions {
   int controller_domain{};
   Nanoseconds lease{};
   std::optional<dds::DiscoveryServer> discovery_server;
+  std::filesystem::path security{};           ///< ParticipantOptions
   std::vector<std::string> controller_peers;  ///< ParticipantOptions::peers
   std::vector<std::uint8_t> vehicle_ids;
 };

@@ -70,6 +70,7 @@ dds::ParticipantOptions HlcProcess::on_domain(std::optional<int> domain, dds::Do
       .peers = role == dds::DomainRole::kController ? options_.controller_peers
                                                     : std::vector<std::string>{},
       .version = options_.version,
+      .security = options_.security,
       .on_loss =
           [this](const std::string& line) {
             shell_.post(high_level_controller::LostMessage{line});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,6 +28,7 @@ struct HlcProcessOptions {
   dds::Transport transport{dds::Transport::kLab};
   dds::Domains domains;
   std::optional<dds::DiscoveryServer> discovery_server;
+  std::filesystem::path security{};  ///< ParticipantOptions
   /// ParticipantOptions::peers of the controllers' domain
   std::vector<std::string> controller_peers;
   machine::RunTime time{machine::kRealTime};

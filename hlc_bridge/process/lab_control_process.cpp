@@ -29,6 +29,7 @@ dds::ParticipantOptions on_domain(const LabControlOptions& options, dds::DomainR
           .discovery_server = lab ? options.discovery_server : std::nullopt,
           .peers = lab ? std::vector<std::string>{} : options.controller_peers,
           .version = options.version,
+          .security = options.security,
           .on_loss = [](const std::string& line) { log(kLabControlName, machine::warning(line)); },
           .admits = [&shell](const auto& publisher,
                              std::size_t bytes) { return shell.admits(publisher, bytes); },

@@ -31,6 +31,7 @@ struct LabControlOptions {
   int lab_domain{};
   int controller_domain{};
   std::optional<dds::DiscoveryServer> discovery_server;
+  std::filesystem::path security{};  ///< ParticipantOptions
   /// ParticipantOptions::peers of the controllers' domain
   std::vector<std::string> controller_peers;
   machine::RunTime time{machine::kRealTime};

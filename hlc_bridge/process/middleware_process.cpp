@@ -31,6 +31,7 @@ dds::ParticipantOptions on_domain(const MiddlewareOptions& options, dds::DomainR
           .lease = options.time.lease,
           .discovery_server = lab ? options.discovery_server : std::nullopt,
           .version = options.version,
+          .security = options.security,
           .on_loss =
               [id = options.node_id](const std::string& line) { spdlog::warn("{}: {}", id, line); },
           .admits = [&shell](const auto& publisher,

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,6 +32,7 @@ struct MiddlewareOptions {
   int lab_domain{};
   int local_domain{};
   std::optional<dds::DiscoveryServer> discovery_server;
+  std::filesystem::path security{};  ///< ParticipantOptions
   machine::RunTime time{machine::kRealTime};
   middleware::MiddlewareRules rules{middleware::real_middleware_rules(true)};
   Nanoseconds offset{kListOffset};  ///< of the lists in a period

@@ -76,6 +76,7 @@ LabProcesses::LabProcesses(const LabOptions& options, scenario::Scenario given)
     if (std::ranges::find(options.absent, name) != options.absent.end()) return;
     command.insert(command.end(), flags.begin(), flags.end());
     if (options.records_messages) command.push_back(messages);
+    if (!options.security.empty()) command.push_back("--security=" + options.security);
     commands_[name] = std::move(command);
   };
   std::string ids;

@@ -25,6 +25,7 @@ struct LabOptions {
   std::vector<std::string> absent;             ///< processes that are not started
   int startup_timeout_s{60};                   ///< of lab control; the others wait 10 s longer
   std::string transport{"loopback"};           ///< or "lab": as root with a /dev/shm of their own
+  std::string security{};                      ///< folder of make_security.sh
   bool records_messages{};                     ///< in the folder messages
   bool records_commands{};                     ///< with a command_recorder, which ends by itself
 };

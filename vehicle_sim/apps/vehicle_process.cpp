@@ -112,6 +112,7 @@ VehicleProcess::VehicleProcess(VehicleProcessOptions options)
             .lease = options_.time.lease,
             .discovery_server = options_.discovery_server,
             .version = options_.version,
+            .security = options_.security,
             .on_loss =
                 [this](const std::string& line) { process::log(name_, machine::warning(line)); },
             .admits = [this](const auto& publisher,

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -27,6 +28,7 @@ struct VehicleProcessOptions {
   dds::Transport transport{dds::Transport::kLab};
   int lab_domain{};
   std::optional<dds::DiscoveryServer> discovery_server;
+  std::filesystem::path security{};  ///< ParticipantOptions
   machine::RunTime time{machine::kRealTime};
   machine::PacingRules rules{machine::real_rules(kVehicleStays)};
   bool keep_running{};     ///< VehicleMachineOptions

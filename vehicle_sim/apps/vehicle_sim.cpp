@@ -137,6 +137,7 @@ hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
           .transport = hlc::dds::transport_from_name(flags.network.transport),
           .lab_domain = flags.network.dds_domain,
           .discovery_server = flags.network.discovery_server(),
+          .security = flags.network.security,
           .time = hlc::machine::run_time(flags.network.simulated_time,
                                          flags.network.transport == "lab"),
           .rules = flags.network.simulated_time ? hlc::machine::logical_rules()

@@ -45,6 +45,14 @@ TEST_P(ReplacedFunctions, AreFoundBeforeThoseOfTheLibrary) {
 }
 
 constexpr std::array kReplaced{
+    Replaced{
+        "MatchForAuthentication",
+        "_ZN8eprosima8fastrtps4rtps8security15SecurityManager23match_builtin_endpointsERKNS1_20"
+        "ParticipantProxyDataE"},
+    Replaced{
+        "MatchForKeys",
+        "_ZN8eprosima8fastrtps4rtps8security15SecurityManager36match_builtin_key_exchange_endpo"
+        "intsERKNS1_20ParticipantProxyDataE"},
     Replaced{"Clear", "_ZN8eprosima8fastrtps4rtps20ParticipantProxyData5clearEv"},
     Replaced{"Statistics",
              "_ZNK8eprosima8fastrtps4rtps15MessageReceiver25notify_network_statisticsERKNS1_9"
