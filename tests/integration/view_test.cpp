@@ -128,7 +128,7 @@ void expect_all(const std::map<int, std::vector<int>>& recorded,
 }
 
 /// `trace_sha256` of the finished run.
-std::string trace_of(LabProcesses& lab) {
+std::string trace_at_end_of(LabProcesses& lab) {
   EXPECT_THAT(lab.still_running_after(120s), testing::IsEmpty());
   EXPECT_EQ(lab.summarize(), 0) << lab.log("summarize");
   const auto summary =
@@ -139,14 +139,14 @@ std::string trace_of(LabProcesses& lab) {
 TEST(View, LeavesTheRunAsItIsAndEndsWithIt) {
   LabProcesses alone({.steps = 40});
   alone.start_all();
-  const std::string trace = trace_of(alone);
+  const std::string trace = trace_at_end_of(alone);
   LabProcesses watched({.steps = 40});
   View view(watched, "true");
   HttpClient client(view.port());
   client.get("/events");
   watched.start_all();
   const std::vector<nlohmann::json> messages = messages_of(client);
-  EXPECT_EQ(trace_of(watched), trace);
+  EXPECT_EQ(trace_at_end_of(watched), trace);
   EXPECT_NE(trace, "");
   ASSERT_FALSE(messages.empty());
   EXPECT_EQ(messages.front().value("kind", ""), "run");
