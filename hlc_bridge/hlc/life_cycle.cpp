@@ -69,7 +69,9 @@ void LifeCycle::watch_lab_control(Nanoseconds wall, HlcActions& actions) {
       return;
     case machine::LabControlWatch::Change::kLost:
       actions.error(std::string(kLabControlName) +
-                    " lost; minimal-risk stop: driving the plan in force to its end");
+                    " lost; minimal-risk stop: driving the plan in force to its end" +
+                    (rules_.stops_on_lab_domain ? std::string{}
+                                                : "; no stop came through " + middleware_.name()));
       return;
     case machine::LabControlWatch::Change::kBack:
       actions.info(std::string(kLabControlName) + " is back; planning resumed");

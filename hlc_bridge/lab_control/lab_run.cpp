@@ -113,10 +113,18 @@ bool LabRun::is_back(const std::string& process) const {
   if (!attendance_.is_there(process)) return false;
   for (const std::uint8_t id : settings_.vehicle_ids) {
     if (process == controller_name(id)) {
-      return reports_.last_received(id) > attendance_.died_at(process);
+      return reports_.last_received(id) > attendance_.died_at(process) && !is_drive_overdue(id);
     }
   }
   return true;
+}
+
+std::vector<std::string> LabRun::silent_among(const std::vector<std::string>& pending) const {
+  std::vector<std::string> absent;
+  for (const std::string& process : pending) {
+    if (!attendance_.is_there(process)) absent.push_back(process);
+  }
+  return absent.empty() ? pending : absent;
 }
 
 void LabRun::update_returns(LabRunActions& actions) {
@@ -142,7 +150,7 @@ void LabRun::update_deaths(LabRunActions& actions) {
   }
   const std::vector<std::string> pending = pending_replies();
   if (!pending.empty() && now_ - last_progress_ >= kAnswerTimeout) {
-    for (const std::string& process : pending) {
+    for (const std::string& process : silent_among(pending)) {
       mark_dead(process, "answer overdue", actions);
     }
     last_progress_ = now_;

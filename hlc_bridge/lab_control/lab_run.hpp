@@ -74,7 +74,8 @@ struct LabRunResult {
 ///         └──timeout──► finished (3)    nobody leaves standby for 10 s ► braking ──► finished (3)
 ///
 /// With OnDeath::kContinue a death is recorded, and the run continues. A dead process is back when
-/// its participant is present again, a controller when it reports again; a run that ends while a
+/// its participant is present again, a controller when it reports again (one that died on standby:
+/// when it drives); a run that ends while a
 /// dead process is not back has failed (4).
 ///
 /// Step k0 is the first that a controller reports as not standby. The run continues for one period
@@ -150,8 +151,11 @@ class LabRun {
   /// next such death is due if no message arrives (wall time).
   [[nodiscard]] virtual std::vector<Death> overdue() const { return {}; }
   [[nodiscard]] virtual Nanoseconds next_overdue() const { return kNever; }
-  /// Processes with a pending reply. All of them are dead when no process has replied for
-  /// kAnswerTimeout.
+  /// Whether the vehicle's controller should have left standby by now: one that died for this is
+  /// not back as long as it only reports that it is on standby.
+  [[nodiscard]] virtual bool is_drive_overdue(std::uint8_t /*vehicle_id*/) const { return false; }
+  /// Processes with a pending reply. When no process has replied for kAnswerTimeout, those of them
+  /// are dead that are not present: the others may wait for these. If all are present, all are.
   [[nodiscard]] virtual std::vector<std::string> pending_replies() const { return {}; }
   /// Messages in which these processes reply: one that serves several vehicles sends one for all.
   [[nodiscard]] virtual std::size_t num_messages(const std::vector<std::string>& processes) const {
@@ -182,6 +186,8 @@ class LabRun {
   void update_deaths(LabRunActions& actions);
   void update_returns(LabRunActions& actions);
   [[nodiscard]] bool is_back(const std::string& process) const;
+  [[nodiscard]] std::vector<std::string> silent_among(
+      const std::vector<std::string>& pending) const;
   void mark_dead(const std::string& process, const std::string& sign, LabRunActions& actions);
   void record_death(const Death& death);
   void leave_running_phases(LabRunActions& actions);

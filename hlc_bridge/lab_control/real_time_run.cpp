@@ -45,6 +45,7 @@ void RealTimeRun::drop(const std::string& process) {
   for (const std::uint8_t id : settings().vehicle_ids) {
     if (process == vehicle_name(id)) {
       settled_.erase(id);
+      if (phase() != Phase::kGathering) returns_[id] = kNever;
     }
     const bool ends_reports = process == controller_name(id) || process == middleware_name(id);
     if (ends_reports && phase() != Phase::kGathering) {
@@ -58,6 +59,7 @@ void RealTimeRun::on_return(const std::string& process) {
     if (process == controller_name(id)) {
       silenced_.erase(id);
     }
+    if (process == vehicle_name(id)) returns_[id] = now();
   }
 }
 
@@ -69,11 +71,16 @@ Nanoseconds RealTimeRun::report_due(std::uint8_t vehicle_id) const {
 }
 
 Nanoseconds RealTimeRun::drive_due(std::uint8_t vehicle_id) const {
-  if (!start_ || !reports().first_step() || silenced_.count(vehicle_id) != 0 ||
-      reports().has_left_standby(vehicle_id)) {
-    return kNever;
-  }
-  return std::max(*start_, *reports().first_step() * settings().period) + kReportTimeout;
+  return silenced_.contains(vehicle_id) ? kNever : must_drive_by(vehicle_id);
+}
+
+Nanoseconds RealTimeRun::must_drive_by(std::uint8_t vehicle_id) const {
+  if (!start_ || !reports().first_step() || reports().has_left_standby(vehicle_id)) return kNever;
+  const auto found = returns_.find(vehicle_id);
+  const Nanoseconds vehicle_since = found == returns_.end() ? 0 : found->second;
+  if (vehicle_since == kNever) return kNever;
+  const Nanoseconds others_drive = *reports().first_step() * settings().period;
+  return std::max({*start_, others_drive, vehicle_since}) + kReportTimeout;
 }
 
 std::vector<Death> RealTimeRun::overdue() const {

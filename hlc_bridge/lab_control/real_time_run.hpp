@@ -13,9 +13,9 @@ namespace hlc::lab_control {
 /// trigger's time, one second later. `now` of advance() is the time since the epoch.
 ///
 /// From the start trigger's time on, a report of every live controller is due at least every
-/// kReportTimeout, since it reports every list; and when one has left standby, the others must
-/// follow within that time. A controller that does not is dead, even if its participant still
-/// announces itself.
+/// kReportTimeout, since it reports every list; and when one has left standby, the others whose
+/// vehicles are alive must follow within that time. A controller that does not is dead, even if its
+/// participant still announces itself.
 class RealTimeRun : public LabRun {
  public:
   /// From the trigger to the start.
@@ -43,6 +43,9 @@ class RealTimeRun : public LabRun {
   void on_return(const std::string& process) override;
   [[nodiscard]] std::vector<Death> overdue() const override;
   [[nodiscard]] Nanoseconds next_overdue() const override;
+  [[nodiscard]] bool is_drive_overdue(std::uint8_t vehicle_id) const override {
+    return now() >= must_drive_by(vehicle_id);
+  }
   [[nodiscard]] Nanoseconds wall_time_of(Nanoseconds t) const override { return t; }
 
  private:
@@ -50,11 +53,15 @@ class RealTimeRun : public LabRun {
   /// it drives (`drive_due`); kNever if that is not to be expected.
   [[nodiscard]] Nanoseconds report_due(std::uint8_t vehicle_id) const;
   [[nodiscard]] Nanoseconds drive_due(std::uint8_t vehicle_id) const;
+  /// The same of a controller that is dead; kNever while its vehicle is: it stands by for it.
+  [[nodiscard]] Nanoseconds must_drive_by(std::uint8_t vehicle_id) const;
 
   std::set<std::string> ready_;                    ///< node names of middlewares
   std::map<std::uint8_t, SettledStates> settled_;  ///< by vehicle
   std::set<std::uint8_t> silenced_;                ///< their controllers are gone, or get no lists
-  std::optional<Nanoseconds> start_;               ///< next_start of the trigger
+  /// When vehicles that had died were back; kNever: they are not.
+  std::map<std::uint8_t, Nanoseconds> returns_;
+  std::optional<Nanoseconds> start_;  ///< next_start of the trigger
 };
 
 }  // namespace hlc::lab_control

@@ -258,5 +258,20 @@ TEST(HlcMachineLoss, StaysAndLogsItOnceWhileNoOtherControllerIsReceived) {
   EXPECT_FALSE(one.has_logged("stays until"));
 }
 
+// A middleware that had died at the stop was not named: only the lab control, which had left in
+// order.
+TEST(HlcMachineInLogicalTime, NamesTheMiddlewareThatForwardsNoStopWhenTheLabControlHasLeft) {
+  DrivenMachine one(logical_time());
+  one.on(peers());
+  start(one);
+  HlcPeers without_lab_control = peers();
+  without_lab_control.lab = {.alive = {}, .lost = {kLabControlName}};
+  without_lab_control.stop_request_readers = 0;
+  one.on(without_lab_control);
+  one.pass(2 * kSecond);
+  EXPECT_TRUE(one.has_logged("lab_control lost"));
+  EXPECT_TRUE(one.has_logged("no stop came through middleware_1"));
+}
+
 }  // namespace
 }  // namespace hlc::high_level_controller::hlc_machine_loss_test

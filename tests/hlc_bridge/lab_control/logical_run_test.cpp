@@ -154,6 +154,32 @@ TEST(LogicalRun, ControllerWithoutMiddlewareOwesNoReports) {
   EXPECT_THAT(run.advance(3).triggers, ElementsAre(kVehiclePeriod));
 }
 
+// A controller that was killed before the lab control had discovered it is missed by the others:
+// those that waited for it were named dead, too.
+TEST(LogicalRun, WhoIsAbsentIsDeadBeforeThoseThatMayWaitForIt) {
+  const std::vector<std::uint8_t> ids{1, 2};
+  LogicalRun run{settings(ids, 20)};
+  run.presence({vehicle_name(1), middleware_name(1), controller_name(1), vehicle_name(2),
+                middleware_name(2), controller_name(2)},
+               {});
+  run.trigger_readers(timers_of({1, 2}));
+  for (const std::uint8_t id : ids) {
+    run.ready({vehicle_name(id), 0});
+    run.ready({middleware_name(id), kListOffset});
+  }
+  EXPECT_THAT(run.advance(1).triggers, ElementsAre(0));
+  run.presence({vehicle_name(1), middleware_name(1), controller_name(1), vehicle_name(2),
+                middleware_name(2)},
+               {});
+  for (const std::uint8_t id : ids) run.ready({vehicle_name(id), kPeriod});
+  EXPECT_THAT(run.advance(2).triggers, ElementsAre(kListOffset));
+  for (const std::uint8_t id : ids) run.ready({middleware_name(id), kPeriod + kListOffset});
+  EXPECT_THAT(run.advance(3).deaths, IsEmpty());
+  const LabRunActions overdue = run.advance(3 + kAnswerTimeout);
+  ASSERT_EQ(overdue.deaths.size(), 1U);
+  EXPECT_EQ(overdue.deaths.front().process, controller_name(2));
+}
+
 TEST(LogicalRun, LostTriggerIsSentAgain) {
   LogicalRun run{settings({1}, 20)};
   run.trigger_readers(timers_of({1}));

@@ -226,6 +226,47 @@ TEST_F(OnDeathContinue, WhoIsBackAndDiesAgainIsNamedAgain) {
   EXPECT_EQ(drive(k0_ + 14, k0_ + 30, false).deaths.size(), 1U) << "it does not report";
 }
 
+class OnDeathContinueWithStandby : public OnDeathContinue {
+ protected:
+  /// Both report in every step, controller 2 that it is on standby.
+  LabRunActions drive_alone(std::uint64_t from, std::uint64_t to) {
+    LabRunActions all;
+    for (std::uint64_t step = from; step < to; ++step) {
+      run_.report(report(1, step, coordination::StepStatus::kPlanned));
+      run_.report(report(2, step, coordination::StepStatus::kStandby));
+      const LabRunActions actions = run_.advance(step * kPeriod);
+      std::ranges::copy(actions.deaths, std::back_inserter(all.deaths));
+      std::ranges::copy(actions.returns, std::back_inserter(all.returns));
+    }
+    return all;
+  }
+};
+
+// It was named dead and back in every step.
+TEST_F(OnDeathContinueWithStandby, AControllerOnStandbyIsNamedOnceAndBackWhenItDrives) {
+  begin();
+  const LabRunActions standby = drive_alone(k0_, k0_ + 30);
+  ASSERT_EQ(standby.deaths.size(), 1U);
+  EXPECT_EQ(standby.deaths.front().process, controller_name(2));
+  EXPECT_THAT(standby.returns, IsEmpty());
+  EXPECT_THAT(drive(k0_ + 30, k0_ + 32, true).returns, ElementsAre(controller_name(2)));
+}
+
+// The controller was named dead, too.
+TEST_F(OnDeathContinueWithStandby, AControllerWhoseVehicleIsDeadIsNotNamed) {
+  begin();
+  std::set<std::string> others = kAll;
+  others.erase(vehicle_name(2));
+  run_.presence(others, {vehicle_name(2)});
+  const LabRunActions actions = drive_alone(k0_, k0_ + 30);
+  ASSERT_EQ(actions.deaths.size(), 1U);
+  EXPECT_EQ(actions.deaths.front().process, vehicle_name(2));
+  run_.presence(kAll, {});
+  const LabRunActions back = drive_alone(k0_ + 30, k0_ + 35);
+  EXPECT_THAT(back.returns, ElementsAre(vehicle_name(2)));
+  EXPECT_THAT(back.deaths, IsEmpty()) << "it has not had the time to drive";
+}
+
 TEST_F(RealTimeRunTest, LostProcessIsNamedAndTheOthersDriveOut) {
   make_ready();
   (void)run_.advance(kStart);
