@@ -96,6 +96,19 @@ TEST(FaultPlan, AFaultIsALine) {
                   .end = 3'200'000'000,
                   .process = "middleware_1"};
   EXPECT_EQ(to_string(cut), "2.150 s ... 3.200 s: cut middleware_1 -> any");
+  const Fault flood{.kind = FaultKind::kFlood,
+                    .begin = 2'000'000'000,
+                    .end = 3'000'000'000,
+                    .process = "lab_control",
+                    .amount = 2000};
+  EXPECT_EQ(to_string(flood), "2.000 s ... 3.000 s: flood lab_control -> any, 2000 a second");
+}
+
+TEST(FaultPlan, AFaultForGoodIsOverForTheOthersWhenItBegins) {
+  const Fault death{
+      .kind = FaultKind::kKill, .begin = 2'000'000'000, .end = kForGood, .process = "middleware_1"};
+  EXPECT_EQ(to_string(death), "2.000 s ... end: kill middleware_1");
+  EXPECT_EQ(end_of(std::vector{death}), death.begin);
 }
 
 }  // namespace

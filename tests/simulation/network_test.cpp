@@ -187,6 +187,26 @@ TEST_F(Network, WhatIsLostOrRepeatedIsAShareOfAll) {
   EXPECT_EQ(share({.from = "reader", .withheld = 1.0}, kStates), 1.0);
 }
 
+TEST_F(Network, AFloodRepeatsTheNewestMessageAtItsRateUntilTheNextOne) {
+  const NodeId writer = join_writer();
+  join_reader();
+  pass(kNanosecondsPerSecond);
+  const Disturbance flood{.from = "writer", .flood_hz = 2000.0};
+  network_.add(flood);
+  for (int i = 0; i < 50; ++i) {
+    network_.publish(writer, kStates, VehicleState{.vehicle_id = 1});
+    pass(20 * kMilli);
+  }
+  EXPECT_NEAR(static_cast<double>(num_arrived(kStates)), 2000.0 + 50.0 + 400.0, 100.0)
+      << "the first message is repeated for 200 ms";
+  network_.remove(flood);
+  pass(kNanosecondsPerSecond);
+  arrived_.clear();
+  network_.publish(writer, kStates, VehicleState{.vehicle_id = 1});
+  pass(kNanosecondsPerSecond);
+  EXPECT_EQ(num_arrived(kStates), 1);
+}
+
 TEST_F(Network, WhoStandsStillShowsNoSignOfLifeAndMissesSomeWhenItGoesOn) {
   const NodeId writer = join_writer();
   const NodeId reader = join_reader();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "hlc_bridge/messages/node_names.hpp"
@@ -282,6 +281,7 @@ class Draw {
       case FaultKind::kDrift:
         fault.amount = either_way(is_vehicle ? 200'000 : 2 * kMs);
         break;
+      case FaultKind::kFlood:
       case FaultKind::kCut:
       case FaultKind::kKill:
       case FaultKind::kFreeze:
@@ -303,81 +303,9 @@ class Draw {
   std::optional<Window> window_;
 };
 
-std::string seconds(Nanoseconds time) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3f s", 1e-9 * static_cast<double>(time));
-  return text.data();
-}
-
-std::string amount_text(const Fault& fault) {
-  std::array<char, 64> text{};
-  const double amount_ms = 1e-6 * static_cast<double>(fault.amount);
-  switch (fault.kind) {
-    case FaultKind::kLose:
-    case FaultKind::kWithhold:
-      std::snprintf(text.data(), text.size(), ", %.0f %%", 100.0 * fault.share);
-      break;
-    case FaultKind::kRepeat:
-    case FaultKind::kReorder:
-      std::snprintf(text.data(), text.size(), ", %.0f %%, up to %.1f ms", 100.0 * fault.share,
-                    amount_ms);
-      break;
-    case FaultKind::kDelay:
-      std::snprintf(text.data(), text.size(), ", up to %.1f ms", amount_ms);
-      break;
-    case FaultKind::kStep:
-      std::snprintf(text.data(), text.size(), ", %+.3f ms", amount_ms);
-      break;
-    case FaultKind::kDrift:
-      std::snprintf(text.data(), text.size(), ", %+.3f ms/s", amount_ms);
-      break;
-    case FaultKind::kCut:
-    case FaultKind::kKill:
-    case FaultKind::kFreeze:
-      break;
-  }
-  return text.data();
-}
-
 }  // namespace
 
-const char* to_string(FaultKind kind) {
-  switch (kind) {
-    case FaultKind::kLose:
-      return "lose";
-    case FaultKind::kWithhold:
-      return "withhold";
-    case FaultKind::kDelay:
-      return "delay";
-    case FaultKind::kRepeat:
-      return "repeat";
-    case FaultKind::kReorder:
-      return "reorder";
-    case FaultKind::kCut:
-      return "cut";
-    case FaultKind::kKill:
-      return "kill";
-    case FaultKind::kFreeze:
-      return "freeze";
-    case FaultKind::kStep:
-      return "step";
-    case FaultKind::kDrift:
-      return "drift";
-  }
-  return "";
-}
-
 std::span<const FaultKind> all_fault_kinds() { return kKinds; }
-
-std::string to_string(const Fault& fault) {
-  const auto name = [](const std::string& process) {
-    return process.empty() ? std::string("any") : process;
-  };
-  std::string text = seconds(fault.begin) + " ... " + seconds(fault.end) + ": " +
-                     to_string(fault.kind) + " " + name(fault.process);
-  if (!is_of_process(fault.kind)) text += " -> " + name(fault.peer);
-  return text + amount_text(fault);
-}
 
 std::vector<Fault> draw_faults(std::uint64_t seed, const FaultPlanSettings& settings) {
   if (settings.kinds.empty()) return {};
@@ -386,7 +314,9 @@ std::vector<Fault> draw_faults(std::uint64_t seed, const FaultPlanSettings& sett
 
 Nanoseconds end_of(std::span<const Fault> faults) {
   Nanoseconds end = 0;
-  for (const Fault& fault : faults) end = std::max(end, fault.end);
+  for (const Fault& fault : faults) {
+    end = std::max(end, fault.end == kForGood ? fault.begin : fault.end);
+  }
   return end;
 }
 

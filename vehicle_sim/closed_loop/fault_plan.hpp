@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ enum class FaultKind : std::uint8_t {
   kDelay,     ///< messages take up to `amount` longer
   kRepeat,    ///< a share of the messages comes twice
   kReorder,   ///< a share of the messages comes up to `amount` later, and others do not wait for it
+  kFlood,     ///< copies of valid messages arrive, `amount` a second on every topic; not drawn
   kCut,       ///< no messages and no signs of life pass
   kKill,      ///< the process is killed, and restarted at the end
   kFreeze,    ///< the process is suspended until the end
@@ -23,7 +25,11 @@ enum class FaultKind : std::uint8_t {
   kDrift,     ///< its clocks run faster or slower by `amount` ns in a second until the end
 };
 
-/// A temporary fault. Times are true times since the beginning of the run.
+/// End of a fault that does not pass.
+inline constexpr Nanoseconds kForGood = std::numeric_limits<Nanoseconds>::max();
+
+/// A temporary fault, or one that ends kForGood. Times are true times since the beginning of the
+/// run.
 struct Fault {
   FaultKind kind{};
   Nanoseconds begin{};
@@ -37,7 +43,7 @@ struct Fault {
 
 /// By name, for flags: "lose", "withhold", ...
 [[nodiscard]] const char* to_string(FaultKind kind);
-/// All kinds, in the order of their declaration.
+/// All kinds that are drawn, in the order of their declaration.
 [[nodiscard]] std::span<const FaultKind> all_fault_kinds();
 /// "2.150 s ... 3.200 s: cut middleware_1 -> vehicle_raspberry_1"
 [[nodiscard]] std::string to_string(const Fault& fault);
@@ -74,7 +80,7 @@ struct FaultPlanSettings {
 /// margin (10 mm) covers the difference.
 [[nodiscard]] std::vector<Fault> draw_faults(std::uint64_t seed, const FaultPlanSettings& settings);
 
-/// The end of the last one; 0 without faults.
+/// The end of the last one, of those that do not pass the begin; 0 without faults.
 [[nodiscard]] Nanoseconds end_of(std::span<const Fault> faults);
 
 }  // namespace hlc::closed_loop

@@ -11,12 +11,12 @@
 namespace hlc::closed_loop {
 namespace {
 
-/// After the interruption all have left: vehicles brake for a second; a vehicle without lab control
-/// stays for kVehicleStays after the lease.
-constexpr Nanoseconds kLeaveTime = 10 * kNanosecondsPerSecond;
 /// Logical time: a run waits for 10 s for each process that is silent, leases are 10 s, and a
 /// process without triggers times out after a minute.
 constexpr Nanoseconds kLogicalPatience = 180 * kNanosecondsPerSecond;
+/// A process that starts when the run is over may wait for the next one without a limit, as
+/// vehicles and the lab's controllers do in real time: it ends when it is interrupted.
+constexpr Nanoseconds kLateEnd = 5 * kNanosecondsPerSecond;
 constexpr Nanoseconds kCheckPeriod = 100 * kNanosecondsPerMillisecond;
 /// A process with more iterations in a check period waits for a past event.
 constexpr std::uint64_t kMostIterations = 2'000;
@@ -38,6 +38,9 @@ Disturbance disturbance_of(const Fault& fault) {
     case FaultKind::kReorder:
       disturbance.overtaken = fault.share;
       disturbance.overtake_delay = amount;
+      break;
+    case FaultKind::kFlood:
+      disturbance.flood_hz = static_cast<double>(amount);
       break;
     default:
       disturbance.delay = amount;
@@ -82,18 +85,24 @@ void finish(const Fault& fault, SimulatedLab& lab) {
 
 class FaultRun {
  public:
-  FaultRun(const scenario::Scenario& scenario, const FaultRunSettings& settings, const Trace& trace)
+  FaultRun(const scenario::Scenario& scenario, const FaultRunSettings& settings, const Trace& trace,
+           RunDiary* diary)
       : settings_(settings),
         calm_from_(end_of(settings.faults)),
         monitor_(scenario, calm_from_, trace),
-        lab_(scenario, settings.lab, monitor_) {
+        writer_(monitor_, diary),
+        lab_(scenario, settings.lab, writer_) {
     monitor_.attach(lab_);
+    writer_.attach(lab_);
     if (settings.keeps_records) monitor_.keep_records();
-    lab_.on_change = [this](const ProcessSlot& slot) { monitor_.changed(slot); };
+    lab_.on_change = [this](const ProcessSlot& slot) {
+      writer_.changed(slot);
+      monitor_.changed(slot);
+    };
     lab_.pose_of = [this](std::uint8_t vehicle) { return monitor_.pose_of(vehicle); };
     for (std::uint32_t i = 0; i < settings.faults.size(); ++i) {
       lab_.set_alarm(settings.faults[i].begin, 2 * i);
-      lab_.set_alarm(settings.faults[i].end, 2 * i + 1);
+      if (settings.faults[i].end != kForGood) lab_.set_alarm(settings.faults[i].end, 2 * i + 1);
     }
     lab_.set_alarm(kCheckPeriod, kCheck);
   }
@@ -129,12 +138,18 @@ class FaultRun {
       if (lab_.now() >= calm_from_ + kLogicalPatience) expect_all_ended();
       return;
     }
-    if (!is_planning_checked_ && lab_.now() >= calm_from_ + PlanningCheck::kPatience) {
+    if (!is_planning_checked_ && !interrupted_at_ &&
+        lab_.now() >= calm_from_ + PlanningCheck::kPatience) {
       is_planning_checked_ = true;
       monitor_.check_planning(able_vehicles());
     }
-    if (!interrupted_at_ && lab_.now() >= calm_from_ + settings_.calm) interrupt();
-    if (interrupted_at_ && lab_.now() >= *interrupted_at_ + kLeaveTime) expect_all_ended();
+    if (interrupted_at_) {
+      const Nanoseconds last = std::max(*interrupted_at_, calm_from_) + settings_.leave_time;
+      if (lab_.now() >= last - kLateEnd) interrupt_late_starters();
+      if (lab_.now() >= last) expect_all_ended();
+    } else if (lab_.now() >= settings_.interrupt_at.value_or(calm_from_ + settings_.calm)) {
+      interrupt();
+    }
   }
 
   /// No process polls for a past event; and in real time every running process has a wake-up time
@@ -197,6 +212,13 @@ class FaultRun {
     lab_.interrupt(lab_.slots().front());
   }
 
+  void interrupt_late_starters() {
+    for (const Fault& fault : settings_.faults) {
+      const bool starts = fault.kind == FaultKind::kKill && fault.end >= *interrupted_at_;
+      if (starts && fault.end != kForGood) lab_.interrupt(lab_.slot(fault.process));
+    }
+  }
+
   void expect_all_ended() {
     is_over_ = true;
     for (const ProcessSlot& slot : lab_.slots()) {
@@ -207,6 +229,7 @@ class FaultRun {
   const FaultRunSettings& settings_;
   Nanoseconds calm_from_;
   RunMonitor monitor_;
+  DiaryWriter writer_;
   SimulatedLab lab_;
   std::optional<Nanoseconds> interrupted_at_;
   bool is_planning_checked_{};
@@ -216,8 +239,8 @@ class FaultRun {
 }  // namespace
 
 FaultRunResult run_with_faults(const scenario::Scenario& scenario, const FaultRunSettings& settings,
-                               const Trace& trace) {
-  return FaultRun(scenario, settings, trace).drive();
+                               const Trace& trace, RunDiary* diary) {
+  return FaultRun(scenario, settings, trace, diary).drive();
 }
 
 }  // namespace hlc::closed_loop

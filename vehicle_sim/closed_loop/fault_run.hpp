@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/closed_loop/fault_plan.hpp"
 #include "vehicle_sim/closed_loop/process_factory.hpp"
+#include "vehicle_sim/closed_loop/run_diary.hpp"
 #include "vehicle_sim/closed_loop/run_monitor.hpp"
 
 namespace hlc::closed_loop {
@@ -15,6 +17,11 @@ struct FaultRunSettings {
   std::vector<Fault> faults;
   /// Real time: duration of the run after the last fault; longer than PlanningCheck::kPatience.
   Nanoseconds calm{6 * kNanosecondsPerSecond};
+  /// Real time: of the interruption, instead of after the calm; faults may last beyond it.
+  std::optional<Nanoseconds> interrupt_at{};
+  /// Real time: after the interruption and the last fault all have left: vehicles brake for a
+  /// second; a vehicle without lab control stays for kVehicleStays after the lease.
+  Nanoseconds leave_time{10 * kNanosecondsPerSecond};
   bool keeps_records{};  ///< FaultRunResult::records
 };
 
@@ -25,9 +32,10 @@ struct FaultRunSettings {
 /// time: a run of some steps, or fewer if a process dies.
 ///
 /// A killed process is restarted at the end of the fault, a vehicle at its last pose.
+/// @param diary  of the run; none: nullptr
 /// @throws std::invalid_argument where the machines do
 [[nodiscard]] FaultRunResult run_with_faults(const scenario::Scenario& scenario,
                                              const FaultRunSettings& settings,
-                                             const Trace& trace = {});
+                                             const Trace& trace = {}, RunDiary* diary = nullptr);
 
 }  // namespace hlc::closed_loop

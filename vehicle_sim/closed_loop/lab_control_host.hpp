@@ -65,7 +65,9 @@ class LabControlHost : public Host {
 
   void perform(const ReportRecord& /*record*/) const {}
   void perform(const Log& /*log*/) const {}
-  void perform(const lab_control::ProgressText& /*text*/) const {}
+  void perform(const lab_control::ProgressText& progress) const {
+    place().observer->on_progress(progress.text);
+  }
   void perform(const SystemTrigger& trigger) const { publish(kTriggers, trigger); }
   void perform(const Parameter& parameter) const { publish(kParameters, parameter); }
   void perform(const RunState& state) {

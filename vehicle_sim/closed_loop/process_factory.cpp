@@ -18,7 +18,6 @@ namespace {
 
 constexpr Nanoseconds kStartupTimeout = 30 * kNanosecondsPerSecond;
 constexpr std::uint64_t kEndless = 1'000'000;
-constexpr Nanoseconds kProgressInterval = 60 * kNanosecondsPerSecond;
 
 template <class Host>
 std::unique_ptr<SimulatedProcess> wrapped(const ProcessPlace& place, Host host,
@@ -36,11 +35,11 @@ lab_control::LabControlMachine lab_control(const scenario::Scenario& scenario,
                                   .steps = settings.steps,
                                   .startup_timeout = kStartupTimeout};
   if (settings.is_logical) {
-    return {std::make_unique<lab_control::LogicalRun>(std::move(run)), kProgressInterval};
+    return {std::make_unique<lab_control::LogicalRun>(std::move(run)), settings.progress_interval};
   }
   run.on_death = lab_control::OnDeath::kContinue;
   run.steps = kEndless;
-  return {std::make_unique<lab_control::RealTimeRun>(std::move(run)), kProgressInterval};
+  return {std::make_unique<lab_control::RealTimeRun>(std::move(run)), settings.progress_interval};
 }
 
 simulated_vehicle::VehicleMachine vehicle(const scenario::Scenario& scenario, std::uint8_t id,

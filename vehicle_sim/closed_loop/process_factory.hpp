@@ -41,6 +41,7 @@ struct LabSettings {
   bool is_logical{};
   Transport transport{};
   std::uint64_t steps{100};  ///< of the run in logical time; in real time it is interrupted
+  Nanoseconds progress_interval{60 * kNanosecondsPerSecond};  ///< of the lab control's progress
   /// The scenario's subgraph; none: each run prepares it.
   std::optional<controller::PreparedSubgraph> prepared{};
   std::optional<DifferentController> different{};

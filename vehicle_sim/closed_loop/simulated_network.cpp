@@ -13,6 +13,8 @@ constexpr Nanoseconds kMostDiscovery = 60 * kNanosecondsPerMillisecond;
 /// Until a lost message is sent again.
 constexpr Nanoseconds kLeastRepair = 10 * kNanosecondsPerMillisecond;
 constexpr Nanoseconds kMostRepair = 60 * kNanosecondsPerMillisecond;
+/// For which a flood repeats the newest message.
+constexpr Nanoseconds kLongestFlood = 200 * kNanosecondsPerMillisecond;
 
 std::size_t index_of(Domain domain) { return static_cast<std::size_t>(domain); }
 
@@ -348,7 +350,9 @@ void SimulatedNetwork::transmit(std::uint32_t index, const SharedMessage& messag
       arrival += random.below(disturbance.overtake_delay + 1);
     }
     if (disturbance.delay > 0) arrival += random.below(disturbance.delay);
+    if (disturbance.flood_hz > 0.0) flood(index, message, disturbance.flood_hz);
   }
+  channel.last_sent = now;
   if (waits_its_turn) {
     arrival = std::max(arrival, channel.last_arrival);
     channel.last_arrival = arrival;
@@ -356,6 +360,17 @@ void SimulatedNetwork::transmit(std::uint32_t index, const SharedMessage& messag
   queue_->add(arrival, {.what = EventKind::kArrival, .detail = index, .message = message});
   if (second != 0) {
     queue_->add(second, {.what = EventKind::kArrival, .detail = index, .message = message});
+  }
+}
+
+/// Until the next message, if that is as far from this one as this one is from the last.
+void SimulatedNetwork::flood(std::uint32_t index, const SharedMessage& message, double rate_hz) {
+  const Nanoseconds now = queue_->now();
+  const Nanoseconds lasts = std::min(now - channels_[index].last_sent, kLongestFlood);
+  const auto copies = static_cast<Nanoseconds>(1e-9 * rate_hz * static_cast<double>(lasts));
+  for (Nanoseconds i = 1; i <= copies; ++i) {
+    queue_->add(now + options_.most_delay + i * lasts / copies,
+                {.what = EventKind::kArrival, .detail = index, .message = message});
   }
 }
 

@@ -37,6 +37,7 @@ struct Disturbance {
   Nanoseconds delay{};  ///< additional delay of every message, at most
   Nanoseconds repeat_delay{};
   Nanoseconds overtake_delay{};
+  double flood_hz{};  ///< so many copies a second of the newest message arrive on every topic
   friend bool operator==(const Disturbance&, const Disturbance&) = default;
 };
 
@@ -146,6 +147,7 @@ class SimulatedNetwork {
     std::uint64_t seed{};
     std::uint64_t count{};
     Nanoseconds last_arrival{};
+    Nanoseconds last_sent{};
     std::deque<SharedMessage> waiting;
   };
 
@@ -158,6 +160,7 @@ class SimulatedNetwork {
   [[nodiscard]] bool is_disturbed_by(const Disturbance& disturbance, const Channel& channel) const;
   void send(std::uint32_t index, const SharedMessage& message);
   void transmit(std::uint32_t index, const SharedMessage& message);
+  void flood(std::uint32_t index, const SharedMessage& message, double rate_hz);
   void flush(NodeId from, NodeId to);
   void update_discovery(NodeId observer, NodeId other, Domain domain);
   void update_discoveries_of(NodeId other);

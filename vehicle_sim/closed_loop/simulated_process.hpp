@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "hlc_bridge/machine/loop.hpp"
@@ -33,6 +34,8 @@ class RunObserver {
   /// By a vehicle.
   virtual void on_received(const TrajectoryCommand& command) = 0;
   virtual void on_stop_symbol(std::uint8_t vehicle) = 0;
+  /// Of the lab control, for the operator.
+  virtual void on_progress(const std::string& /*text*/) {}
 };
 
 /// The environment of a process.
