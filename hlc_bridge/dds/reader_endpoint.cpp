@@ -40,14 +40,17 @@ void ReaderEndpoint::on_data_available(fdds::DataReader* reader) {
     while (is_ok(reader->take_next_sample(sample.get(), &info))) {
       const frtps::GUID_t writer = frtps::iHandle2GUID(info.publication_handle);
       if (!info.valid_data || core_->is_own(writer)) continue;
-      const Fault fault = on_sample_(sample.get(), writer);
-      if (fault.is_of_another) ++of_others_;
-      if (fault.is_in_excess) ++lost_;
-      if (fault.invalid > 0 && dropped_.fetch_add(fault.invalid) == 0) {
-        log(*reader, "invalid content received and dropped (logged once)");
-      }
+      count(*reader, on_sample_(sample.get(), writer));
     }
   });
+}
+
+void ReaderEndpoint::count(const fdds::DataReader& reader, const Fault& fault) {
+  if (fault.is_of_another) ++of_others_;
+  if (fault.is_in_excess) ++lost_;
+  if (fault.invalid > 0 && dropped_.fetch_add(fault.invalid) == 0) {
+    log(reader, "invalid content received and dropped (logged once)");
+  }
 }
 
 void ReaderEndpoint::on_subscription_matched(fdds::DataReader*,

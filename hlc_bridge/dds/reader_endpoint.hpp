@@ -43,6 +43,7 @@ class ReaderEndpoint : private fdds::DataReaderListener {
   void on_sample_lost(fdds::DataReader* reader, const fdds::SampleLostStatus& status) override;
   void on_sample_rejected(fdds::DataReader* reader,
                           const fdds::SampleRejectedStatus& status) override;
+  void count(const fdds::DataReader& reader, const Fault& fault);
   void count_lost(const fdds::DataReader& reader, std::uint64_t count);
   void log(const fdds::DataReader& reader, const std::string& what) const;
 
