@@ -28,6 +28,7 @@ namespace topics = dds::topics;
 constexpr std::string_view kSender = "SENDERPREFIX";
 constexpr std::size_t kPrefixAt = 8;  // in a datagram
 constexpr int kRoles = 3;
+constexpr std::size_t kPorts = std::size_t{2} * kRoles;
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
@@ -113,7 +114,7 @@ class Network {
   /// one before it.
   void send(std::string_view bytes) const {
     if (bytes.empty()) return;
-    const auto choice = static_cast<std::size_t>(bytes.front() - '0') % (2 * kRoles);
+    const auto choice = static_cast<std::size_t>(bytes.front() - '0') % kPorts;
     const int port = domains_[choice / 2]->port(choice % 2 == 1);
     const std::string datagram =
         replaced(std::string(bytes.substr(1)), kSender, senders_[choice / 2]);

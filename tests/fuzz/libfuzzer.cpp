@@ -33,6 +33,9 @@ void write_samples(const std::filesystem::path& folder, const std::vector<Target
 
 }  // namespace
 
+// The names are the compiler's and libFuzzer's, and the attribute is GCC's.
+// NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming)
+// NOLINTBEGIN(clang-diagnostic-unknown-attributes)
 extern "C" {
 
 void __sanitizer_cov_8bit_counters_init(std::uint8_t* begin, std::uint8_t* end);
@@ -74,3 +77,5 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
 }
 
 }  // extern "C"
+// NOLINTEND(clang-diagnostic-unknown-attributes)
+// NOLINTEND(bugprone-reserved-identifier, readability-identifier-naming)

@@ -153,10 +153,10 @@ auto writer_on(const dds::Topic<Message>& topic) {
 }
 
 template <class Message>
-Flood flood(std::string reader, std::string peer, int domain, DomainRole role,
+Flood flood(const std::string& reader, const std::string& peer, int domain, DomainRole role,
             const dds::Topic<Message>& topic) {
-  return {.reader = std::move(reader),
-          .peer = std::move(peer),
+  return {.reader = reader,
+          .peer = peer,
           .topic = topic.name,
           .domain = domain,
           .role = role,

@@ -15,8 +15,8 @@ namespace hlc::closed_loop::fault_matrix_test {
 namespace {
 
 const FaultMatrix& matrix() {
-  static const FaultMatrix matrix(test::source_folder() + "/launch_scripts/scenarios");
-  return matrix;
+  static const FaultMatrix kMatrix(test::source_folder() + "/launch_scripts/scenarios");
+  return kMatrix;
 }
 
 const MatrixRun& undisturbed(const MatrixSetup& setup, std::uint64_t seed) {
