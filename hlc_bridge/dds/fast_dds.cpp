@@ -34,6 +34,18 @@ extern "C" const char* __asan_default_options() { return "new_delete_type_mismat
 
 // The functions of this namespace replace the library's of the same names.
 namespace eprosima::fastrtps::rtps {
+
+namespace security {
+
+/// As far as it is needed here: the library installs no header of it.
+class SecurityManager {
+ public:
+  void match_builtin_endpoints(const ParticipantProxyData& participant);
+  void match_builtin_key_exchange_endpoints(const ParticipantProxyData& participant);
+};
+
+}  // namespace security
+
 namespace {
 
 template <class Function>
@@ -74,6 +86,14 @@ struct LibraryFunctions {
       in_library<decltype(stateless_fragment)>(
           "_ZN8eprosima8fastrtps4rtps15StatelessReader18processDataFragMsgEPNS1_13CacheChange_"
           "tEjjt");
+  void (*match_endpoints)(security::SecurityManager*, const ParticipantProxyData&) =
+      in_library<decltype(match_endpoints)>(
+          "_ZN8eprosima8fastrtps4rtps8security15SecurityManager23match_builtin_endpointsERKNS1_20"
+          "ParticipantProxyDataE");
+  void (*match_key_exchange)(security::SecurityManager*, const ParticipantProxyData&) =
+      in_library<decltype(match_key_exchange)>(
+          "_ZN8eprosima8fastrtps4rtps8security15SecurityManager36match_builtin_key_exchange_"
+          "endpointsERKNS1_20ParticipantProxyDataE");
 };
 
 const LibraryFunctions& library() {
@@ -285,6 +305,32 @@ bool StatelessReader::processDataFragMsg(CacheChange_t* change, std::uint32_t sa
   return has_its_fragments(*change, sample_size, first_fragment, fragments) &&
          library().stateless_fragment(this, change, sample_size, first_fragment, fragments);
 }
+
+namespace security {
+namespace {
+
+// Of all participants of the process. Neither function calls the other, and a thread that waits for
+// such a lock holds none that its owner could wait for.
+std::mutex endpoints_mutex;
+std::mutex key_exchange_mutex;
+
+}  // namespace
+
+// The library describes the other participant in members that all its threads share. Two of them
+// that find a participant each, at the same time, matched one of the two only: this process never
+// read the other's authentication, and they did not meet.
+void SecurityManager::match_builtin_endpoints(const ParticipantProxyData& participant) {
+  const std::lock_guard lock(endpoints_mutex);
+  library().match_endpoints(this, participant);
+}
+
+void SecurityManager::match_builtin_key_exchange_endpoints(
+    const ParticipantProxyData& participant) {
+  const std::lock_guard lock(key_exchange_mutex);
+  library().match_key_exchange(this, participant);
+}
+
+}  // namespace security
 
 }  // namespace eprosima::fastrtps::rtps
 

@@ -46,8 +46,6 @@ using LibraryReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 /// Throws if the library lacks one of the functions that are replaced (README.md): otherwise the
 /// process would end at its first heartbeat.
 void find_library_functions();
-/// The same for those of DDS security.
-void find_security_functions();
 /// The library's own errors go to stderr.
 void log_library_errors();
 /// A write never runs a reader's callback in the writing thread.

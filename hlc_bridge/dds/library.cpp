@@ -10,7 +10,6 @@ void set_up_library() {
   static std::once_flag once;
   std::call_once(once, [] {
     find_library_functions();
-    find_security_functions();
     log_library_errors();
     turn_off_delivery_within_process();
     make_type_factories();
