@@ -58,7 +58,6 @@ log=$(mktemp)
 trap 'code=$?; ((code == 0)) || tail -n 5 "$log" >&2; rm -f "$log"' EXIT
 ssl() { openssl "$@" 2>>"$log"; }
 
-# A leading -: of the last argument the topics begin.
 topics() { # publish or subscribe, topics
   local kind=$1 topic
   shift

@@ -49,7 +49,6 @@ struct Certificate {
   /// force, its areas are the former ones without the first.
   bool is_agreed{};
   std::vector<Separation> separations;  ///< only those with a line for every step of the horizon
-  friend bool operator==(const Certificate&, const Certificate&) = default;
 };
 
 /// Areas that overlap by less count as separate: the final area of a plan may lie 2 um outside its
