@@ -16,8 +16,11 @@
 #include "hlc_bridge/dds/writer.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/hlc_bridge/dds/loopback.hpp"
+#include "tests/hlc_bridge/dds/mutated_datagram.hpp"
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
+#include "tests/hlc_bridge/dds/send_datagram.hpp"
 #include "tests/hlc_bridge/dds/sent_datagrams.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
 
 namespace hlc::fuzz {
@@ -98,12 +101,27 @@ int num_waiting(int port) {
   return bytes;
 }
 
+/// Among what was sent to a port. The writers repeat theirs until they are acknowledged.
+bool has_heartbeat(const dds::SentDatagrams& sent, int port) {
+  constexpr unsigned char kHeartbeat = 0x07;
+  return std::ranges::any_of(sent.so_far(), [port](const dds::Datagram& datagram) {
+    return ntohs(datagram.to.sin_port) == port &&
+           std::ranges::any_of(dds::submessages(datagram.bytes),
+                               [&](std::size_t at) { return datagram.bytes[at] == kHeartbeat; });
+  });
+}
+
 class Network {
  public:
   Network() {
     const dds::SentDatagrams sent;
     add_topics();
-    std::this_thread::sleep_for(std::chrono::milliseconds{200});  // also heartbeats
+    for (const auto& domain : domains_) {
+      if (!test::eventually(std::chrono::seconds{60},
+                            [&] { return has_heartbeat(sent, domain->port(true)); })) {
+        throw std::logic_error("no heartbeat was sent");
+      }
+    }
     for (std::size_t i = 0; i < domains_.size(); ++i) add_samples(sent, i);
   }
   ~Network() { ::close(socket_); }
@@ -118,12 +136,7 @@ class Network {
     const int port = domains_[choice / 2]->port(choice % 2 == 1);
     const std::string datagram =
         replaced(std::string(bytes.substr(1)), kSender, senders_[choice / 2]);
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    ::sendto(socket_, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&to),
-             sizeof to);
+    dds::send_datagram(socket_, datagram.data(), datagram.size(), port);
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds{10};
     while (num_waiting(port) > 0) {
       if (std::chrono::steady_clock::now() > deadline) {

@@ -17,6 +17,7 @@
 #include "tests/hlc_bridge/dds/loopback.hpp"
 #include "tests/hlc_bridge/dds/mutated_datagram.hpp"
 #include "tests/hlc_bridge/dds/sample_messages.hpp"
+#include "tests/hlc_bridge/dds/send_datagram.hpp"
 #include "tests/hlc_bridge/dds/sent_datagrams.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/domain_reservation.hpp"
@@ -128,12 +129,7 @@ class Datagrams : public testing::Test {
 
   /// To the process alone.
   void send(const Bytes& datagram, int port) const {
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    ::sendto(socket_, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&to),
-             sizeof to);
+    send_datagram(socket_, datagram.data(), datagram.size(), port);
   }
 
   /// The process answers a question of this participant, which is repeated until it does: the
