@@ -35,6 +35,12 @@ std::optional<AnnouncedParticipant> AuthenticatedParticipants::authenticated(
   return by_its_identity(std::move(participant));
 }
 
+std::optional<std::string> AuthenticatedParticipants::refused(const ParticipantKey& key) {
+  if (named_.size() >= kMostNamed || !named_.insert(key).second) return std::nullopt;
+  const auto found = waiting_.find(key);
+  return found == waiting_.end() ? std::string{} : found->second.name;
+}
+
 void AuthenticatedParticipants::left(const ParticipantKey& key) {
   waiting_.erase(key);
   authenticated_.erase(key);

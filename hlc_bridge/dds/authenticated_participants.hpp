@@ -24,11 +24,17 @@ class AuthenticatedParticipants {
   /// Returns the participant if it is present now.
   [[nodiscard]] std::optional<AnnouncedParticipant> announced(AnnouncedParticipant participant);
   [[nodiscard]] std::optional<AnnouncedParticipant> authenticated(const ParticipantKey& key);
+  /// Its proof has failed, or it has none. Returns the name that it announces, empty if it has not
+  /// yet, to be logged; none if it was refused before, or if kMostNamed others were.
+  [[nodiscard]] std::optional<std::string> refused(const ParticipantKey& key);
   void left(const ParticipantKey& key);
+
+  static constexpr std::size_t kMostNamed = 100;
 
  private:
   std::map<ParticipantKey, AnnouncedParticipant> waiting_;
   std::set<ParticipantKey> authenticated_;
+  std::set<ParticipantKey> named_;  ///< who was refused
 };
 
 }  // namespace hlc::dds

@@ -2,23 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
 namespace hlc::dds {
-namespace {
-
-/// A participant may have any bytes as its name.
-std::string in_log(std::string name) {
-  constexpr std::size_t kLongest = 64;
-  if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";
-  std::ranges::replace_if(
-      name, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return name;
-}
-
-}  // namespace
 
 DropLog::DropLog(std::shared_ptr<const ParticipantCore> core, std::string topic)
     : core_{std::move(core)}, topic_{std::move(topic)} {}
@@ -32,7 +19,7 @@ void DropLog::log(const frtps::GUID_t& writer, const std::string& reason) {
     return last == nullptr ? std::string{} : fmt::format("{}", fmt::join(*last, ","));
   });
   on_loss(fmt::format("topic {}: messages of participant \"{}\" ({:02x}) dropped (logged once): {}",
-                      topic_, in_log(names), fmt::join(writer.guidPrefix.value, ""), reason));
+                      topic_, name_in_log(names), fmt::join(writer.guidPrefix.value, ""), reason));
 }
 
 }  // namespace hlc::dds

@@ -371,6 +371,8 @@ void DiscoveryListener::onParticipantAuthentication(fdds::DomainParticipant* /*o
                                                     frtps::ParticipantAuthenticationInfo&& info) {
   if (info.status == frtps::ParticipantAuthenticationInfo::AUTHORIZED_PARTICIPANT) {
     on_authenticated(info.guid.guidPrefix);
+  } else {
+    on_refused(info.guid.guidPrefix);
   }
 }
 

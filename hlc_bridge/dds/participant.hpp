@@ -52,9 +52,10 @@ struct ParticipantOptions {
   /// Folder of the identities and rights (security.hpp); empty: without DDS security. With it only
   /// participants of the same authority are present, each under the name of its identity only.
   std::filesystem::path security{};
-  /// Called on a DDS thread, once per reader and kind, with a line for the log: a message contained
-  /// an invalid entry, or was lost (Reader::dropped, Reader::lost). It must only queue if log lines
-  /// are themselves published on a topic.
+  /// Called on a DDS thread with a line for the log: once per reader and kind if a message
+  /// contained an invalid entry, or was lost (Reader::dropped, Reader::lost); once per participant
+  /// that is refused by DDS security. It must only queue if log lines are themselves published on a
+  /// topic.
   std::function<void(const std::string& line)> on_loss{};
   /// Called on a DDS thread before a received message is passed on: false if those of its publisher
   /// that wait to be read leave no room for so many bytes; the message is then dropped. It must not

@@ -132,6 +132,16 @@ void ParticipantCore::on_authenticated(const frtps::GuidPrefix_t& participant) {
   change_presence([&] { admit(authenticated_.authenticated(key_of(participant))); });
 }
 
+void ParticipantCore::on_refused(const frtps::GuidPrefix_t& participant) {
+  if (!options_.on_loss) return;
+  const auto name = update([&] { return authenticated_.refused(key_of(participant)); });
+  if (!name) return;
+  options_.on_loss(fmt::format(
+      "participant \"{}\" ({:02x}) refused (logged once): it has no identity of the authority of "
+      "{}",
+      name_in_log(*name), fmt::join(participant.value, ""), options_.security.string()));
+}
+
 void ParticipantCore::admit(const std::optional<AnnouncedParticipant>& participant) {
   if (participant) {
     presence_.appeared(participant->key, participant->name, participant->user_data);

@@ -81,6 +81,7 @@ class ParticipantCore : private DiscoveryListener {
  private:
   void on_found(const FoundParticipant& participant) override;
   void on_authenticated(const frtps::GuidPrefix_t& participant) override;
+  void on_refused(const frtps::GuidPrefix_t& participant) override;
   void on_found(const FoundEndpoint& endpoint) override;
 
   [[nodiscard]] bool is_secure() const { return !options_.security.empty(); }

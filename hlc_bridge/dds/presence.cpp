@@ -6,6 +6,14 @@
 
 namespace hlc::dds {
 
+std::string name_in_log(std::string name) {
+  constexpr std::size_t kLongest = 64;
+  if (name.size() > kLongest) name = name.substr(0, kLongest) + "...";
+  std::ranges::replace_if(
+      name, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return name;
+}
+
 void Presence::appeared(const ParticipantKey& key, const std::string& name,
                         const std::string& version) {
   const auto [entry, is_new] = names_.try_emplace(key);

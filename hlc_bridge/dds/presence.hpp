@@ -13,6 +13,10 @@ namespace hlc::dds {
 /// What identifies a participant on the wire (the first 12 bytes of a GUID).
 using ParticipantKey = std::array<std::uint8_t, 12>;
 
+/// A participant's name, which may be any bytes, for a log line: printable, its first 64
+/// characters.
+[[nodiscard]] std::string name_in_log(std::string name);
+
 /// The participants on a domain. Several of them can have one name: the name is alive as long as
 /// one of them is. A participant that stands for several processes (process_names) has all their
 /// names. Not thread-safe.

@@ -43,6 +43,20 @@ TEST(AuthenticatedParticipants, IsAskedForAgainAfterAParticipantHasLeft) {
   EXPECT_FALSE(participants.announced({.key = key, .name = "middleware_2", .user_data = {}}));
 }
 
+TEST(AuthenticatedParticipants, NamesOnceWhoIsRefused) {
+  AuthenticatedParticipants participants;
+  const ParticipantKey key = key_with("middleware_2", 1);
+  EXPECT_FALSE(participants.announced({.key = key, .name = "stranger", .user_data = {}}));
+  EXPECT_EQ(participants.refused(key), "stranger");
+  EXPECT_EQ(participants.refused(key), std::nullopt);
+  participants.left(key);
+  EXPECT_EQ(participants.refused(key), std::nullopt);
+  for (std::size_t i = 1; i < AuthenticatedParticipants::kMostNamed; ++i) {
+    EXPECT_EQ(participants.refused(key_with("middleware_3", static_cast<std::uint8_t>(i))), "");
+  }
+  EXPECT_EQ(participants.refused(key_with("middleware_4", 1)), std::nullopt);
+}
+
 TEST(AuthenticatedParticipants, NamesWhoTakesTheNameOfAnotherIdentity) {
   AuthenticatedParticipants participants;
   const auto name_of = [&](const std::string& identity, const std::string& name) {

@@ -178,13 +178,27 @@ TEST(Security, ExcludesADiscoveryServer) {
 class SecurityOnADomain : public testing::Test {
  protected:
   [[nodiscard]] int domain() const { return reservation_.first(); }
+  /// The same options with their log lines counted.
+  [[nodiscard]] ParticipantOptions logging(ParticipantOptions options) {
+    options.on_loss = [this](const std::string& line) {
+      log_.post([&] { lines_.push_back(line); });
+    };
+    return options;
+  }
+  /// As soon as there are `count`.
+  [[nodiscard]] std::vector<std::string> log_lines(std::size_t count) const {
+    static_cast<void>(log_.wait_until(soon(), [&] { return lines_.size() >= count; }));
+    return log_.locked([&] { return lines_; });
+  }
 
   test::DomainReservation reservation_{1};
+  time::Signal log_;
+  std::vector<std::string> lines_;
 };
 
 // A stranger without an identity and one of another authority publish in a car's name and read.
 TEST_F(SecurityOnADomain, ConnectsItsOwnParticipantsAndNoOther) {
-  Participant stranger(on_loopback("high_level_controller_2", domain(), DomainRole::kController));
+  Participant stranger(on_loopback("stranger", domain(), DomainRole::kController));
   Participant foreigner(secured("high_level_controller_2", domain(), other_authority()));
   const Mailbox<coordination::Prediction> read_by_stranger(stranger, topics::prediction());
   const Mailbox<coordination::Prediction> read_by_foreigner(foreigner, topics::prediction());
@@ -192,7 +206,7 @@ TEST_F(SecurityOnADomain, ConnectsItsOwnParticipantsAndNoOther) {
   Writer<coordination::Prediction> forged_too(foreigner, topics::prediction());
 
   Participant second(secured("high_level_controller_2", domain()));
-  Participant third(secured("high_level_controller_3", domain()));
+  Participant third(logging(secured("high_level_controller_3", domain())));
   Writer<coordination::Prediction> writer(second, topics::prediction());
   const Mailbox<coordination::Prediction> mailbox(third, topics::prediction());
   ASSERT_TRUE(writer.wait_for_matched(1, soon()));
@@ -207,6 +221,9 @@ TEST_F(SecurityOnADomain, ConnectsItsOwnParticipantsAndNoOther) {
   EXPECT_THAT(read_by_foreigner.now(), testing::IsEmpty());
   EXPECT_EQ(second.alive(), std::set<std::string>{"high_level_controller_3"});
   EXPECT_EQ(third.alive(), std::set<std::string>{"high_level_controller_2"});
+  EXPECT_THAT(log_lines(2), testing::UnorderedElementsAre(
+                                testing::ContainsRegex("\"stranger\" .* refused"),
+                                testing::ContainsRegex("\"high_level_controller_2\" .* refused")));
 }
 
 TEST_F(SecurityOnADomain, LetsAParticipantPublishAndReadItsOwnTopicsOnly) {
