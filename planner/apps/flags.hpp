@@ -220,7 +220,7 @@ inline void declare_scenario_flags(CLI::App& app, scenario::ScenarioChoices& cho
   app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
   declare_profile_flag(app, choices.profile);
   app.add_option("--engine", choices.engine,
-                 std::string("search engine: ") + scenario::kEngineChoices +
+                 "search engine: " + scenario::engine_choices() +
                      " (default: the scenario's, else the profile's)");
   app.add_option(
          "--priorities", choices.priorities,

@@ -61,9 +61,8 @@ void declare(CLI::App& app, Flags& flags) {
          "joint one of several vehicles, as price_of_priority --dump does")
       ->required();
   app.add_option("--automaton", flags.automaton, "instead of the file that the problem names");
-  app.add_option(
-      "--engine", flags.engine,
-      std::string(hlc::scenario::kEngineChoices) + " (default: the file's, else branch_and_bound)");
+  app.add_option("--engine", flags.engine,
+                 hlc::scenario::engine_choices() + " (default: the file's, else branch_and_bound)");
   app.add_option("--cost_to_go", flags.cost_to_go,
                  "reachable, straight_line or 2022; the last two with best_first");
   app.add_option(

@@ -26,7 +26,9 @@ constexpr double kHalfChord_m = 0.02;
 
 }  // namespace
 
-Authority::Authority(std::shared_ptr<const right_of_way::ConflictMap> map) : map_(std::move(map)) {}
+Authority::Authority(std::shared_ptr<const right_of_way::ConflictMap> map,
+                     const right_of_way::GrantOrder& order)
+    : map_(std::move(map)), order_(&order) {}
 
 void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
                            const RouteTracker& tracker, double reach_m) {
@@ -79,7 +81,8 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
     granted_.push_back(assumed.back().last);
   }
   std::ranges::sort(granted_, {}, &right_of_way::Holder::vehicle);  // as every other vehicle does
-  const std::vector<double>& ahead_m = shared.granted(*map_, granted_, blocked, kLookAhead_m);
+  const std::vector<double>& ahead_m =
+      shared.granted(*map_, granted_, blocked, kLookAhead_m, *order_);
   for (std::size_t i = 0; i < granted_.size(); ++i) granted_[i].claim.ahead_m = ahead_m[i];
   std::optional<std::vector<right_of_way::Holder>> cautious;
   if (!assumed.empty()) {

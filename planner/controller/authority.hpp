@@ -31,7 +31,9 @@ class Authority {
  public:
   static constexpr std::uint32_t kPatience_steps = 25;
 
-  explicit Authority(std::shared_ptr<const right_of_way::ConflictMap> map);
+  /// @param order  in which authorities are extended, the same for all vehicles
+  explicit Authority(std::shared_ptr<const right_of_way::ConflictMap> map,
+                     const right_of_way::GrantOrder& order = right_of_way::kLongestWait);
 
   /// The vehicle holds nothing any longer: it was moved to another place.
   void release() { has_place_ = false; }
@@ -81,6 +83,7 @@ class Authority {
   };
 
   std::shared_ptr<const right_of_way::ConflictMap> map_;
+  const right_of_way::GrantOrder* order_;
   coordination::LaneClaim claim_;
   StepIndex now_;
   /// After `extend`: what all hold at the end of the step by `grant`; what limits this vehicle,

@@ -64,7 +64,7 @@ Controller::Controller(ControllerOptions options, PreparedSubgraph on,
       drivable_area_(options_.strategies.standstill_timeout, options_.horizon_steps),
       neighbours_(options_.vehicle, rules_for_missing(subgraph().automaton())),
       routes_digest_(digest_of(tracker_.routes())) {
-  if (options_.conflicts) authority_.emplace(options_.conflicts);
+  if (options_.conflicts) authority_.emplace(options_.conflicts, *options_.strategies.grant_order);
 }
 
 coordination::Report Controller::stand_by(const Observation& observation) {
@@ -199,8 +199,8 @@ void Controller::couple(const coordination::ReceivedMessages<coordination::Traff
   traffic.push_back(&step_.traffic);
   step_.report.missing = neighbours_.missing();
   extend_authority(shared);
-  const auto& [graph, plans_before, levels] =
-      shared.coupling(std::move(traffic), options_.strategies.priorities);
+  const auto& [graph, plans_before, levels] = shared.coupling(
+      std::move(traffic), options_.strategies.priorities, *options_.strategies.coupling);
   step_.report.level = levels.at(options_.vehicle);
   take_coupling(graph, plans_before);
 }

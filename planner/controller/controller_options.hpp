@@ -11,8 +11,10 @@
 #include "planner/controller/obstacles.hpp"
 #include "planner/controller/plan_in_force.hpp"
 #include "planner/coordination/commit.hpp"
+#include "planner/coordination/coupling_rule.hpp"
 #include "planner/coordination/priority.hpp"
 #include "planner/right_of_way/conflict_map.hpp"
+#include "planner/right_of_way/grant_order.hpp"
 #include "planner/road/reference_points.hpp"
 #include "planner/search/horizon_problem.hpp"
 #include "planner/vehicle/lab_limits.hpp"
@@ -58,6 +60,8 @@ inline constexpr CoordinationRule kAgreedCoordination{
 /// The rules by which a controller plans and coordinates. All vehicles of a run need the same.
 struct ControllerStrategies {
   coordination::PriorityRule priorities{};
+  const coordination::CouplingRule* coupling{&coordination::kReachableAreas};
+  const right_of_way::GrantOrder* grant_order{&right_of_way::kLongestWait};
   CoordinationRule coordination{kCooperativeCoordination};
   IncumbentRule incumbent{&rest_of_plan_in_force};
   StandstillTimeoutRule standstill_timeout{&once_per_horizon};

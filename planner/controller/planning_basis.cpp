@@ -4,6 +4,7 @@
 #include <array>
 
 #include "planner/common/word_hash.hpp"
+#include "planner/controller/coordination_rules.hpp"
 
 namespace hlc::controller {
 namespace {
@@ -103,9 +104,9 @@ void add(WordHash& hash, const ControllerStrategies& strategies) {
   for (const VehicleId vehicle : first) hash.add(std::uint64_t{vehicle.value});
   hash.add(std::uint64_t{max_levels});
   hash.add(beyond->name);
-  hash.add(
-      number_of(strategies.coordination,
-                std::array{kStrictCoordination, kCooperativeCoordination, kAgreedCoordination}));
+  hash.add(strategies.coupling->name);
+  hash.add(strategies.grant_order->name);
+  hash.add(name_of(strategies.coordination));
   hash.add(number_of(strategies.incumbent,
                      std::array<IncumbentRule, 2>{&rest_of_plan_in_force, &no_incumbent}));
   hash.add(number_of(strategies.standstill_timeout,
@@ -156,8 +157,7 @@ std::uint64_t digest_of(const ControllerOptions& options) {
   hash.add(std::uint64_t{options.horizon_steps});
   hash.add(options.reference_speed_mps);
   hash.add(options.contouring_weight);
-  hash.add(number_of(options.reference_rule,
-                     std::array{&road::half_speed_last, &road::mean_speed_first}));
+  hash.add(road::name_of(options.reference_rule));
   add(hash, options.strategies);
   add(hash, options.search);
   hash.add(options.deviation.reanchor_share);

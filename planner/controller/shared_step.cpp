@@ -19,13 +19,15 @@ bool couples_alike(const coordination::Traffic* a, const coordination::Traffic* 
 }  // namespace
 
 const SharedStep::Coupling& SharedStep::coupling(std::vector<const coordination::Traffic*> traffic,
-                                                 const coordination::PriorityRule& priorities) {
+                                                 const coordination::PriorityRule& priorities,
+                                                 const coordination::CouplingRule& rule) {
   std::ranges::sort(traffic, {}, [](const coordination::Traffic* one) { return one->vehicle; });
-  if (!coupling_ || priorities != priorities_ ||
+  if (!coupling_ || priorities != priorities_ || &rule != rule_ ||
       !std::ranges::equal(traffic, traffic_, couples_alike)) {
     traffic_ = traffic;
     priorities_ = priorities;
-    coordination::CouplingGraph graph(std::move(traffic));
+    rule_ = &rule;
+    coordination::CouplingGraph graph(std::move(traffic), rule);
     coordination::PriorityOrder order = priorities.assign({.graph = graph, .traffic = traffic_});
     auto levels = coordination::computation_levels(graph, order);
     coupling_.emplace(std::move(graph), std::move(order), std::move(levels));
@@ -36,14 +38,15 @@ const SharedStep::Coupling& SharedStep::coupling(std::vector<const coordination:
 const std::vector<double>& SharedStep::granted(const right_of_way::ConflictMap& map,
                                                const std::vector<right_of_way::Holder>& holders,
                                                std::span<const right_of_way::Blocked> blocked,
-                                               double look_ahead_m) {
+                                               double look_ahead_m,
+                                               const right_of_way::GrantOrder& order) {
   const bool is_known = granted_ && granted_->map == &map && granted_->holders == holders &&
                         std::ranges::equal(granted_->blocked, blocked) &&
-                        granted_->look_ahead_m == look_ahead_m;
+                        granted_->look_ahead_m == look_ahead_m && granted_->order == &order;
   if (!is_known) {
-    granted_.emplace(&map, holders,
-                     std::vector<right_of_way::Blocked>(blocked.begin(), blocked.end()),
-                     look_ahead_m, right_of_way::grant(map, holders, blocked, look_ahead_m));
+    granted_.emplace(
+        &map, holders, std::vector<right_of_way::Blocked>(blocked.begin(), blocked.end()),
+        look_ahead_m, &order, right_of_way::grant(map, holders, blocked, look_ahead_m, order));
   }
   return granted_->ahead_m;
 }

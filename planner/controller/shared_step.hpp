@@ -25,13 +25,15 @@ class SharedStep {
 
   /// @param traffic  as for CouplingGraph; kept by address: must outlive this object, unchanged
   [[nodiscard]] const Coupling& coupling(std::vector<const coordination::Traffic*> traffic,
-                                         const coordination::PriorityRule& priorities);
+                                         const coordination::PriorityRule& priorities,
+                                         const coordination::CouplingRule& rule);
 
   /// right_of_way::grant. @param holders  sorted by vehicle
   [[nodiscard]] const std::vector<double>& granted(const right_of_way::ConflictMap& map,
                                                    const std::vector<right_of_way::Holder>& holders,
                                                    std::span<const right_of_way::Blocked> blocked,
-                                                   double look_ahead_m);
+                                                   double look_ahead_m,
+                                                   const right_of_way::GrantOrder& order);
 
  private:
   struct Granted {
@@ -39,11 +41,13 @@ class SharedStep {
     std::vector<right_of_way::Holder> holders;
     std::vector<right_of_way::Blocked> blocked;
     double look_ahead_m;
+    const right_of_way::GrantOrder* order;
     std::vector<double> ahead_m;
   };
 
   std::vector<const coordination::Traffic*> traffic_;  ///< of `coupling_`
   coordination::PriorityRule priorities_;
+  const coordination::CouplingRule* rule_{};
   std::optional<Coupling> coupling_;
   std::optional<Granted> granted_;
 };

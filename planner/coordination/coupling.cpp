@@ -6,14 +6,14 @@
 
 namespace hlc::coordination {
 
-CouplingGraph::CouplingGraph(std::vector<const Traffic*> traffic) {
+CouplingGraph::CouplingGraph(std::vector<const Traffic*> traffic, const CouplingRule& rule) {
   std::ranges::sort(traffic, {}, [](const Traffic* one) { return one->vehicle; });
   neighbours_.resize(traffic.size());
   vehicles_.reserve(traffic.size());
   for (const Traffic* one : traffic) vehicles_.push_back(one->vehicle);
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     for (std::size_t j = i + 1; j < traffic.size(); ++j) {
-      if (intersects(traffic[i]->reachable_area_m, traffic[j]->reachable_area_m)) {
+      if (rule.are_coupled(*traffic[i], *traffic[j])) {
         neighbours_[i].push_back(j);
         neighbours_[j].push_back(i);
       }

@@ -4,17 +4,18 @@
 #include <cstddef>
 #include <vector>
 
+#include "planner/coordination/coupling_rule.hpp"
 #include "planner/coordination/messages.hpp"
 
 namespace hlc::coordination {
 
-/// Which vehicles may meet within the horizon: i and j are coupled if their reachable areas
-/// intersect (undirected). The result is the same in every controller that received the same
-/// traffic.
+/// Which vehicles are coupled by a rule (undirected). The result is the same in every controller
+/// that received the same traffic.
 class CouplingGraph {
  public:
   /// @param traffic  of the same step, every vehicle once; not kept
-  explicit CouplingGraph(std::vector<const Traffic*> traffic);
+  explicit CouplingGraph(std::vector<const Traffic*> traffic,
+                         const CouplingRule& rule = kReachableAreas);
 
   [[nodiscard]] const std::vector<VehicleId>& vehicles() const { return vehicles_; }
   [[nodiscard]] bool are_coupled(VehicleId a, VehicleId b) const;

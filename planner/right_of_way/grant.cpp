@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <tuple>
 
 namespace hlc::right_of_way {
 namespace {
@@ -170,19 +169,17 @@ class Grants {
 }  // namespace
 
 std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holders,
-                          std::span<const Blocked> blocked, double look_ahead_m) {
-  std::vector<std::size_t> order(holders.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-    const auto key = [&](std::size_t i) {
-      const coordination::LaneClaim& claim = holders[i].claim;
-      return std::tuple(-static_cast<std::int64_t>(claim.waiting_steps), claim.ahead_m,
-                        holders[i].vehicle);
-    };
-    return key(a) < key(b);
+                          std::span<const Blocked> blocked, double look_ahead_m,
+                          const GrantOrder& order) {
+  std::vector<std::size_t> turns(holders.size());
+  std::iota(turns.begin(), turns.end(), std::size_t{0});
+  std::ranges::sort(turns, [&](std::size_t a, std::size_t b) {
+    if (order.is_before(holders[a], holders[b])) return true;
+    if (order.is_before(holders[b], holders[a])) return false;
+    return holders[a].vehicle < holders[b].vehicle;
   });
   Grants grants(map, holders, blocked);
-  for (const std::size_t who : order) grants.extend(who, look_ahead_m);
+  for (const std::size_t who : turns) grants.extend(who, look_ahead_m);
   return grants.ahead_m();
 }
 

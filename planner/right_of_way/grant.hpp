@@ -6,16 +6,9 @@
 
 #include "planner/coordination/messages.hpp"
 #include "planner/right_of_way/conflict_map.hpp"
+#include "planner/right_of_way/grant_order.hpp"
 
 namespace hlc::right_of_way {
-
-/// What one vehicle holds: the cells of its route from its place to the end of its authority.
-/// Within it, the vehicle may stop anywhere.
-struct Holder {
-  VehicleId vehicle;
-  coordination::LaneClaim claim;
-  friend bool operator==(const Holder&, const Holder&) = default;
-};
 
 /// An area of a vehicle that holds no cells: off the road, or without a controller; or of an
 /// obstacle.
@@ -28,11 +21,10 @@ struct Blocked {
 /// How far every vehicle's authority reaches after all that can be granted has been: the ends of
 /// `holders`, from their places [m], in the same order.
 ///
-/// The vehicle that has waited longest comes first, then the one that is nearest to the end of its
-/// authority, then the smaller id. Its authority is extended
-/// cell by cell, up to `look_ahead_m` from its place, while the next cell overlaps no cell that
-/// another vehicle holds and nothing that one blocks; a stretch of conflict cells only as a whole,
-/// with the first cell behind it that is none. Behind a vehicle ahead it ends at that one's
+/// The first vehicle comes first by `order`, then the one with the smaller id. Its authority is
+/// extended cell by cell, up to `look_ahead_m` from its place, while the next cell overlaps no cell
+/// that another vehicle holds and nothing that one blocks; a stretch of conflict cells only as a
+/// whole, with the first cell behind it that is none. Behind a vehicle ahead it ends at that one's
 /// present place, not where it is going to be.
 ///
 /// A pure function of what all vehicles announced: controllers that received the same compute the
@@ -43,7 +35,8 @@ struct Blocked {
 /// that is held up on its way may still stop in one. That no state without a way on is reached is
 /// measured, not proven: vehicles may still wait for each other around a circle of full lanes.
 [[nodiscard]] std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holders,
-                                        std::span<const Blocked> blocked, double look_ahead_m);
+                                        std::span<const Blocked> blocked, double look_ahead_m,
+                                        const GrantOrder& order = kLongestWait);
 
 /// A vehicle of which nothing has been received in this step.
 struct Missing {

@@ -1,5 +1,8 @@
 #include "planner/road/reference_points.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "planner/common/demand.hpp"
 
 namespace hlc::road {
@@ -16,6 +19,24 @@ std::vector<double> mean_speed_first(double current_speed_mps, double reference_
   std::vector<double> speeds_mps(horizon_steps, reference_speed_mps);
   speeds_mps.front() = (current_speed_mps + reference_speed_mps) / 2.0;
   return speeds_mps;
+}
+
+std::span<const NamedReferenceRule> reference_rules() {
+  static constexpr std::array kAll{
+      NamedReferenceRule{.name = "half_speed_last", .rule = &half_speed_last},
+      NamedReferenceRule{.name = "mean_speed_first", .rule = &mean_speed_first}};
+  return kAll;
+}
+
+ReferenceRule reference_rule(std::string_view name) {
+  const auto found = std::ranges::find(reference_rules(), name, &NamedReferenceRule::name);
+  return found == reference_rules().end() ? nullptr : found->rule;
+}
+
+std::string_view name_of(ReferenceRule rule) {
+  const auto found = std::ranges::find(reference_rules(), rule, &NamedReferenceRule::rule);
+  HLC_DEMAND(found != reference_rules().end());
+  return found->name;
 }
 
 Reference reference_points(const ReferencePath& path, double start_s_m, double current_speed_mps,

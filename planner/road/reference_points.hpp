@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "planner/road/driving_line.hpp"
@@ -9,7 +11,7 @@
 namespace hlc::road {
 
 /// Spacing of a plan's reference points: the speed of each of the `horizon_steps` steps [m/s]. A
-/// rule is one function; the profile chooses it.
+/// rule is one function; scenario or profile choose it.
 /// @pre horizon_steps >= 1
 using ReferenceRule = std::vector<double> (*)(double current_speed_mps, double reference_speed_mps,
                                               std::size_t horizon_steps);
@@ -24,6 +26,17 @@ using ReferenceRule = std::vector<double> (*)(double current_speed_mps, double r
 [[nodiscard]] std::vector<double> mean_speed_first(double current_speed_mps,
                                                    double reference_speed_mps,
                                                    std::size_t horizon_steps);
+
+struct NamedReferenceRule {
+  std::string_view name;
+  ReferenceRule rule;
+};
+/// All, by the names of their functions. A further rule is one more entry.
+[[nodiscard]] std::span<const NamedReferenceRule> reference_rules();
+/// nullptr: there is none of this name.
+[[nodiscard]] ReferenceRule reference_rule(std::string_view name);
+/// @pre it is one of reference_rules()
+[[nodiscard]] std::string_view name_of(ReferenceRule rule);
 
 /// Reference of one plan: r_1 ... r_n, their arc lengths and the speed of each step.
 struct Reference {

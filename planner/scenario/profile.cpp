@@ -24,12 +24,4 @@ Profile profile_from_name(const std::string& name) {
   throw std::invalid_argument("--profile = " + name + ", must be one of default, 2022");
 }
 
-const std::map<std::string, controller::CoordinationRule>& coordination_rules() {
-  static const std::map<std::string, controller::CoordinationRule> rules{
-      {"agreed", controller::kAgreedCoordination},
-      {"cooperative", controller::kCooperativeCoordination},
-      {"strict", controller::kStrictCoordination}};
-  return rules;
-}
-
 }  // namespace hlc::scenario

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "planner/controller/controller_options.hpp"
@@ -33,9 +32,5 @@ struct Profile {
 ///
 /// @throws std::invalid_argument for any other name
 [[nodiscard]] Profile profile_from_name(const std::string& name);
-
-/// The coordination rules by name: `cooperative`, `strict` (the same without making room),
-/// `agreed`.
-[[nodiscard]] const std::map<std::string, controller::CoordinationRule>& coordination_rules();
 
 }  // namespace hlc::scenario

@@ -74,7 +74,7 @@ struct Scenario {
 struct ScenarioChoices {
   std::filesystem::path file;
   std::string profile{"default"};
-  std::optional<std::string> engine;      ///< see kEngineChoices; default: the scenario's
+  std::optional<std::string> engine;      ///< see engines(); default: the scenario's
   std::optional<std::string> priorities;  ///< name of a strategy; default: the scenario's
   std::optional<std::string> subgraph;
   std::optional<std::string> policy;  ///< kNoPolicy for none; default: the scenario's

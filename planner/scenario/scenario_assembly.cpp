@@ -130,7 +130,7 @@ controller::Rounds rounds_of(const ScenarioValues& values, const ScenarioChoices
   }
   if (!needs_votes && strategy.search != nullptr) return controller::Rounds::kTwo;
   if (!needs_votes) return values.rounds.value_or(controller::Rounds::kSequential);
-  if (values.coordination && values.rounds == controller::Rounds::kTwo) {
+  if (values.strategies.coordination && values.rounds == controller::Rounds::kTwo) {
     values.node.fail("rounds", "sequential with coordination: agreed");
   }
   return controller::Rounds::kSequential;
@@ -152,9 +152,7 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   scenario.reference_speed_mps = values.reference_speed_mps;
   scenario.contouring_weight = values.contouring_weight;
   scenario.profile = profile_from_name(choices.profile);
-  if (values.coordination) {
-    scenario.profile.strategies.coordination = coordination_rules().at(*values.coordination);
-  }
+  choose_strategies(values.strategies, scenario.profile);
   coordination::PriorityRule& priorities = scenario.profile.strategies.priorities;
   priorities = values.priorities;
   if (choices.priorities) priorities.strategy = priority_strategy_from_flag(*choices.priorities);

@@ -112,13 +112,6 @@ CircleValues parse_circle(const Node& node) {
   return circle;
 }
 
-std::optional<std::string> read_coordination(const Node& node) {
-  if (!node.has("coordination")) return std::nullopt;
-  std::vector<std::string> names;
-  for (const auto& [name, rule] : coordination_rules()) names.push_back(name);
-  return node.required<std::string>("coordination", one_of(std::move(names)));
-}
-
 std::optional<controller::Rounds> read_rounds(const Node& node) {
   if (!node.has("rounds")) return std::nullopt;
   return node.required<std::string>("rounds", one_of({"sequential", "two"})) == "two"
@@ -138,7 +131,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8, above(0.0)),
       .contouring_weight = node.optional<double>("contouring_weight", 0.0,
                                                  between(0.0, controller::kMostContouringWeight)),
-      .coordination = read_coordination(node),
+      .strategies = read_strategies(node),
       .priorities = read_priorities(node),
       .rounds = read_rounds(node),
       .engine = read_engine(node),
@@ -161,6 +154,9 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       parse_vehicles(node, values);
     }
     values.seed = node.optional<std::size_t>("seed", 1, between(0.0, kMaxSeed));
+  }
+  if (values.strategies.right_of_way_order && !values.has_right_of_way) {
+    node.fail("right_of_way_order", "absent without right_of_way: true");
   }
   node.check_no_unknown_keys();
   return values;

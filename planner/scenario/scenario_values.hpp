@@ -13,6 +13,7 @@
 #include "planner/geometry/pose.hpp"
 #include "planner/policy/policy_settings.hpp"
 #include "planner/road/lanelet_map.hpp"
+#include "planner/scenario/strategy_values.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc::scenario {
@@ -61,7 +62,7 @@ struct ScenarioValues {
   std::size_t horizon_steps{};
   double reference_speed_mps{};
   double contouring_weight{};
-  std::optional<std::string> coordination{};  ///< of coordination_rules; none: the profile's
+  StrategyValues strategies{};
   coordination::PriorityRule priorities{};
   std::optional<controller::Rounds> rounds{};  ///< none: as the priorities need
   std::optional<std::string> engine{};         ///< as choose_engine takes it

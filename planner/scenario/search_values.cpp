@@ -16,7 +16,7 @@ std::optional<std::string> read_engine(const Node& node) {
     choose_engine(name, search);
     return name;
   };
-  return read_named(node, "engine", known, kEngineChoices);
+  return read_named(node, "engine", known, engine_choices());
 }
 
 std::size_t read_max_expansions(const Node& node) {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "planner/search/ompl/ompl_engine.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/search/search_engine.hpp"
 #include "tests/benchmarks/plain_search.hpp"
 
@@ -14,20 +14,18 @@ namespace {
 
 constexpr std::size_t kNoBudget = 1'000'000'000;
 
+/// Those of scenarios, and the textbook's cost-to-go.
 const std::vector<std::pair<std::string, search::SearchOptions>>& engines() {
-  static const std::vector<std::pair<std::string, search::SearchOptions>> all{
-      {"best_first_straight_line",
-       {search::Engine::kBestFirst, search::CostToGo::kStraightLine, kNoBudget}},
-      {"best_first", {search::Engine::kBestFirst, search::CostToGo::kReachable, kNoBudget}},
-      {"branch_and_bound",
-       {search::Engine::kBranchAndBound, search::CostToGo::kReachable, kNoBudget}},
-      {"ompl_branch_and_bound",
-       {search::Engine::kBranchAndBound,
-        search::CostToGo::kReachable,
-        kNoBudget,
-        {},
-        search::make_ompl_engine}},
-  };
+  static const auto all = [] {
+    std::vector<std::pair<std::string, search::SearchOptions>> named{
+        {"best_first_straight_line",
+         {search::Engine::kBestFirst, search::CostToGo::kStraightLine, kNoBudget}}};
+    for (const scenario::NamedEngine& one : scenario::engines()) {
+      named.push_back({std::string(one.name),
+                       {one.engine, search::CostToGo::kReachable, kNoBudget, {}, one.factory}});
+    }
+    return named;
+  }();
   return all;
 }
 

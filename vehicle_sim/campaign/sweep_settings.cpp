@@ -1,5 +1,6 @@
 #include "vehicle_sim/campaign/sweep_settings.hpp"
 
+#include "planner/controller/coordination_rules.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
 
 namespace hlc::campaign {
@@ -36,7 +37,7 @@ void set_contouring_weight(const SweepValue& value, scenario::Scenario& scenario
 }
 
 void set_coordination(const SweepValue& value, scenario::Scenario& scenario) {
-  scenario.profile.strategies.coordination = scenario::coordination_rules().at(value.text);
+  scenario.profile.strategies.coordination = controller::coordination_rules().at(value.text);
 }
 
 void set_priorities(const SweepValue& value, scenario::Scenario& scenario) {

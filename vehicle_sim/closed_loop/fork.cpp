@@ -14,7 +14,7 @@
 
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
-#include "planner/scenario/profile.hpp"
+#include "planner/controller/coordination_rules.hpp"
 
 namespace hlc::closed_loop {
 namespace {
@@ -90,8 +90,8 @@ class ChangeText {
   }
 
   [[nodiscard]] Fork::Coordination coordination() const {
-    const auto found = scenario::coordination_rules().find(value_);
-    if (found != scenario::coordination_rules().end()) return {found->second};
+    const auto found = controller::coordination_rules().find(value_);
+    if (found != controller::coordination_rules().end()) return {found->second};
     refuse("coordination=cooperative, strict or agreed");
   }
 

@@ -25,10 +25,12 @@ TEST(SharedStep, IsComputedOnceForEqualTraffic) {
   const Traffic two = reaching(2, 0.5);
   const Traffic copy = one;
   SharedStep shared;
-  const auto* const graph = &shared.coupling({&two, &one}, kSmallerIdFirst).graph;
+  const auto* const graph =
+      &shared.coupling({&two, &one}, kSmallerIdFirst, coordination::kReachableAreas).graph;
   const VehicleId* const vehicles = graph->vehicles().data();
-  EXPECT_EQ(shared.coupling({&copy, &two}, kSmallerIdFirst).graph.vehicles().data(), vehicles)
-      << "kept";
+  const auto& again =
+      shared.coupling({&copy, &two}, kSmallerIdFirst, coordination::kReachableAreas);
+  EXPECT_EQ(again.graph.vehicles().data(), vehicles) << "kept";
 }
 
 TEST(SharedStep, IsComputedAgainForEveryOtherInput) {
@@ -38,8 +40,9 @@ TEST(SharedStep, IsComputedAgainForEveryOtherInput) {
   const Traffic three = reaching(3, 0.5);
   SharedStep shared;
   const auto levels = [&](std::vector<const Traffic*> traffic,
-                          const coordination::PriorityRule& priorities) {
-    return shared.coupling(std::move(traffic), priorities).levels;
+                          const coordination::PriorityRule& priorities,
+                          const coordination::CouplingRule& rule = coordination::kReachableAreas) {
+    return shared.coupling(std::move(traffic), priorities, rule).levels;
   };
   EXPECT_THAT(levels({&one, &two}, kSmallerIdFirst),
               ElementsAre(Pair(VehicleId{1}, 0), Pair(VehicleId{2}, 1)));
@@ -47,6 +50,8 @@ TEST(SharedStep, IsComputedAgainForEveryOtherInput) {
               ElementsAre(Pair(VehicleId{1}, 1), Pair(VehicleId{2}, 0)));
   EXPECT_THAT(levels({&one, &far}, kTwoFirst),
               ElementsAre(Pair(VehicleId{1}, 0), Pair(VehicleId{2}, 0)));
+  EXPECT_THAT(levels({&one, &far}, kTwoFirst, coordination::kAllVehicles),
+              ElementsAre(Pair(VehicleId{1}, 1), Pair(VehicleId{2}, 0)));
   EXPECT_THAT(levels({&one, &three}, kTwoFirst),
               ElementsAre(Pair(VehicleId{1}, 1), Pair(VehicleId{3}, 0)));
   EXPECT_THAT(levels({&one}, kTwoFirst), ElementsAre(Pair(VehicleId{1}, 0)));
@@ -73,10 +78,12 @@ TEST(SharedStep, GrantsAreThoseOfWhatIsHeldAndBlocked) {
   SharedStep shared;
   std::vector<std::vector<double>> seen;
   const auto expect_granted = [&](const right_of_way::ConflictMap& of, const auto& holders,
-                                  const auto& blocked, double look_ahead_m) {
-    const std::vector<double> granted = shared.granted(of, holders, blocked, look_ahead_m);
-    EXPECT_EQ(granted, right_of_way::grant(of, holders, blocked, look_ahead_m));
-    EXPECT_EQ(shared.granted(of, holders, blocked, look_ahead_m), granted);
+                                  const auto& blocked, double look_ahead_m,
+                                  const right_of_way::GrantOrder& order =
+                                      right_of_way::kLongestWait) {
+    const std::vector<double> granted = shared.granted(of, holders, blocked, look_ahead_m, order);
+    EXPECT_EQ(granted, right_of_way::grant(of, holders, blocked, look_ahead_m, order));
+    EXPECT_EQ(shared.granted(of, holders, blocked, look_ahead_m, order), granted);
     seen.push_back(granted);
   };
   const std::vector<right_of_way::Blocked> none;
@@ -88,6 +95,7 @@ TEST(SharedStep, GrantsAreThoseOfWhatIsHeldAndBlocked) {
   expect_granted(map, moved, none, 0.5);
   for (std::size_t i = 1; i < seen.size(); ++i) EXPECT_NE(seen[i], seen[i - 1]) << i;
   expect_granted(other_map, moved, none, 0.5);
+  expect_granted(other_map, moved, none, 0.5, right_of_way::kNearestEnd);
 }
 
 }  // namespace

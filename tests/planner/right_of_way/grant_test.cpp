@@ -36,8 +36,9 @@ bool ends_in_conflict(const ConflictMap& map, const Holder& holder) {
 }
 
 std::vector<Holder> granted(const ConflictMap& map, std::vector<Holder> holders,
-                            std::span<const Blocked> blocked = {}) {
-  const std::vector<double> ahead_m = grant(map, holders, blocked, kLookAhead_m);
+                            std::span<const Blocked> blocked = {},
+                            const GrantOrder& order = kLongestWait) {
+  const std::vector<double> ahead_m = grant(map, holders, blocked, kLookAhead_m, order);
   for (std::size_t i = 0; i < holders.size(); ++i) holders[i].claim.ahead_m = ahead_m[i];
   return holders;
 }
@@ -88,6 +89,23 @@ TEST(Grant, TakesNothingFromAnyoneAndNoTwoVehiclesGetOverlappingCells) {
     }
   });
   EXPECT_GT(gained_m, 100.0);
+}
+
+TEST(Grant, TakesNothingFromAnyoneInAnyOrder) {
+  std::size_t different = 0;
+  for_random_holders([&](const ConflictMap& map, const std::vector<Holder>& before, auto&) {
+    const std::vector<Holder> usual = granted(map, before);
+    for (const GrantOrder* order : grant_orders()) {
+      SCOPED_TRACE(order->name);
+      const std::vector<Holder> after = granted(map, before, {}, *order);
+      EXPECT_TRUE(are_disjoint(map, after));
+      for (std::size_t i = 0; i < after.size(); ++i) {
+        EXPECT_GE(after[i].claim.ahead_m, before[i].claim.ahead_m);
+      }
+      if (after != usual) ++different;
+    }
+  });
+  EXPECT_GT(different, 0U);
 }
 
 TEST(Grant, AStretchOfConflictCellsIsTakenAsAWholeOrNotAtAll) {

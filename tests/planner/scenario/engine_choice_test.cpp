@@ -2,27 +2,33 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 
-#include "planner/search/ompl/ompl_engine.hpp"
+#include "planner/search/search_engine.hpp"
 
 namespace hlc::scenario {
 namespace {
 
-TEST(EngineChoice, EveryNameChoosesAnEngineThatSaysIt) {
-  for (const search::Engine engine :
-       {search::Engine::kBranchAndBound, search::Engine::kBestFirst}) {
-    for (const search::EngineFactory factory :
-         {search::EngineFactory{nullptr}, search::EngineFactory{search::make_ompl_engine}}) {
-      const std::string name = engine_name({.engine = engine, .factory = factory});
-      EXPECT_NE(std::string(kEngineChoices).find(name), std::string::npos);
-      search::SearchOptions chosen;
-      choose_engine(name, chosen);
-      EXPECT_EQ(chosen.engine, engine);
-      EXPECT_EQ(chosen.factory, factory);
-    }
+TEST(EngineChoice, EveryNameChoosesAnEngineThatHasIt) {
+  for (const NamedEngine& one : engines()) {
+    search::SearchOptions chosen;
+    choose_engine(std::string(one.name), chosen);
+    EXPECT_EQ(chosen.engine, one.engine);
+    EXPECT_EQ(chosen.factory, one.factory);
+    EXPECT_EQ(engine_name(chosen), one.name);
+    EXPECT_NE(engine_choices().find(one.name), std::string::npos);
   }
+}
+
+TEST(EngineChoice, AnEngineThatIsNotListedHasTheNameOfWhatItReplaces) {
+  const search::EngineFactory own =
+      [](const automaton::Subgraph&, const automaton::ReachableSets&, const search::SearchOptions&,
+         std::shared_ptr<const search::SearchTables>) -> std::unique_ptr<search::SearchEngine> {
+    return nullptr;
+  };
+  EXPECT_EQ(engine_name({.engine = search::Engine::kBestFirst, .factory = own}), "best_first");
 }
 
 TEST(EngineChoice, RefusesOtherNames) {

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "planner/controller/controller_options.hpp"
+
+namespace hlc::controller {
+
+/// The coordination rules by name: `cooperative`, `strict` (the same without making room),
+/// `agreed`. A further rule is one more entry.
+[[nodiscard]] const std::map<std::string, CoordinationRule>& coordination_rules();
+
+/// @pre it is one of them
+[[nodiscard]] std::string_view name_of(const CoordinationRule& rule);
+
+}  // namespace hlc::controller
