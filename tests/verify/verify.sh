@@ -9,7 +9,7 @@ usage() {
 usage: verify.sh [--bin DIR] [--environment DIR] [--xml FILE] [RUN_FOLDER...]
 Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes. Without a run folder: drives
 paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, and paper_three_cars
-with real processes over DDS, checks all of them, and the negative controls of two; reads the recorded messages of the
+with real processes over DDS, checks all of them, and the negative controls of two; checks the shipped scenarios against their schema; reads the recorded messages of the
 last one with the package mcap and, where npm is installed, decodes them by the types in the file as Foxglove does, and
 watches a run under way with its client.
   --bin DIR           the programs (default build/release/bin)
@@ -92,6 +92,7 @@ echo "Driving"
 drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle --subgraphs A,B,C,D \
   --profile default,2022 --keep_runs --scenario_folder "$root/launch_scripts/scenarios" --out "$out/campaign"
 drive "run_lab.sh" timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --out "$out/processes"
+timeout 60 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/scenario_schema.py" || exit 1
 timeout 60 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/messages.py" "$out/processes" || exit 1
 if command -v npm >/dev/null; then
   cp "$here/package.json" "$here/messages.mjs" "$here/live.mjs" "$out"

@@ -1,0 +1,122 @@
+// The schema of scenarios for editors has the keys of the reader. That it accepts the shipped
+// scenarios: tests/verify/scenario_schema.py.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "planner/common/text_file.hpp"
+#include "planner/scenario/scenario_values.hpp"
+#include "tests/support/folders.hpp"
+
+namespace hlc::scenario::schema_test {
+namespace {
+
+using Keys = std::set<std::string>;
+
+/// An object of the schema, and scenarios with an unknown key there: one for each of its forms,
+/// since a form knows its own keys only.
+struct Place {
+  std::string name;  ///< of the schema's definition; "scenario": the whole
+  std::vector<std::string> scenarios;
+};
+
+const std::string kBegin = "{name: x, steps: 1, automaton: a, subgraph: s, ";
+const std::string kRoutes = "routes: [{name: r, lanelets: {M: [1]}}], ";
+const std::string kVehicles = kRoutes + "vehicles: [{id: 1, route: r, start_m: 0}], ";
+
+std::string with_policy(const std::string& policy) {
+  return kBegin + kVehicles + "policies: {p: " + policy + "}}";
+}
+
+std::string with_rule(const std::string& rule) { return with_policy("{rules: [" + rule + "]}"); }
+
+const std::vector<Place>& places() {
+  static const std::vector<Place> all{
+      {"scenario",
+       {kBegin + kVehicles + "zz: 1}",
+        kBegin + kRoutes + "draw: {cars: 1, routes: [r]}, zz: 1}",
+        kBegin + "circle: {cars: 1, radius_m: 1, centre_x_m: 0, centre_y_m: 0}, zz: 1}"}},
+      {"priorities", {kBegin + kVehicles + "priorities: {zz: 1}}"}},
+      {"circle", {kBegin + "circle: {cars: 1, radius_m: 1, centre_x_m: 0, centre_y_m: 0, zz: 1}}"}},
+      {"route",
+       {kBegin + "routes: [{name: r, lanelets: {M: [1]}, zz: 1}]}",
+        kBegin + "routes: [{name: r, lanelets: {M: [1]}}, {name: t, of: r, from: 1, zz: 1}]}"}},
+      {"draw",
+       {kBegin + kRoutes + "draw: {cars: 1, routes: [r], zz: 1}}",
+        kBegin + "routes: random, draw: {cars: 1, zz: 1}}"}},
+      {"vehicle",
+       {kBegin + kRoutes + "vehicles: [{id: 1, route: r, start_m: 0, zz: 1}]}",
+        kBegin + "routes: random, vehicles: [{id: 1, lanelet: 1, start_m: 0, zz: 1}]}"}},
+      {"policy", {with_policy("{rules: [{battery: {below_v: 7, request: {}}}], zz: 1}")}},
+      {"zone", {with_policy("{zones: [{x_m: [0, 1], y_m: [0, 1], max_speed_mps: 1, zz: 1}]}")}},
+      {"request", {with_rule("{battery: {below_v: 7, request: {zz: 1}}}")}},
+      {"change", {with_rule("{time: [{from_s: 0, request: {}, zz: 1}]}")}},
+      {"situation", {with_rule("{situation: {open_road: {}, conflict: {}, zz: 1}}")}},
+      {"battery", {with_rule("{battery: {below_v: 7, request: {}, zz: 1}}")}},
+      {"look_ahead",
+       {with_rule("{look_ahead: {candidates: [{}, {}], max_expansions: 1, zz: 1}}")}}};
+  return all;
+}
+
+const nlohmann::json& schema() {
+  static const nlohmann::json json = nlohmann::json::parse(
+      read_file(test::source_folder() + "/launch_scripts/scenarios/schema.json"));
+  return json;
+}
+
+const nlohmann::json& object_of(const std::string& name) {
+  return name == "scenario" ? schema() : schema().at("definitions").at(name);
+}
+
+Keys keys_in_schema(const std::string& name) {
+  Keys keys;
+  const nlohmann::json& properties = object_of(name).at("properties");
+  for (const auto& [key, value] : properties.items()) keys.insert(key);
+  return keys;
+}
+
+/// Those that the reader lists when it refuses the unknown key.
+Keys keys_of_reader(const std::string& scenario) {
+  std::string text;
+  try {
+    static_cast<void>(parse_scenario(Node::parse_yaml(scenario, "file.yaml"), "file.yaml"));
+  } catch (const std::invalid_argument& error) {
+    text = error.what();
+  }
+  const std::string begin = "zz = 1, unknown key; known keys: ";
+  const std::size_t found = text.find(begin);
+  EXPECT_NE(found, std::string::npos) << scenario << '\n' << text;
+  if (found == std::string::npos) return {};
+  std::istringstream list(text.substr(found + begin.size()));
+  Keys keys;
+  for (std::string key; std::getline(list >> std::ws, key, ',');) keys.insert(key);
+  return keys;
+}
+
+TEST(ScenarioSchema, HasTheKeysOfTheReader) {
+  for (const Place& place : places()) {
+    Keys keys;
+    for (const std::string& scenario : place.scenarios) keys.merge(keys_of_reader(scenario));
+    EXPECT_EQ(keys_in_schema(place.name), keys) << place.name;
+  }
+}
+
+// A definition that is not compared could have any keys.
+TEST(ScenarioSchema, HasNoOtherObjects) {
+  Keys compared{"scenario", "rule"};  // of a rule the reader names the kinds, not keys
+  for (const Place& place : places()) compared.insert(place.name);
+  const nlohmann::json& definitions = schema().at("definitions");
+  for (const auto& [name, definition] : definitions.items()) {
+    if (definition.contains("properties")) EXPECT_TRUE(compared.contains(name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace hlc::scenario::schema_test
