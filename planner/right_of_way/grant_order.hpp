@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "planner/coordination/ids.hpp"
 #include "planner/coordination/messages.hpp"
 
 namespace hlc::right_of_way {

@@ -176,17 +176,17 @@ std::string error_of(const std::string& from, const std::string& to, const std::
 TEST(LabCars, MoreCarsThanFitAreRefusedWithHowManyDo) {
   EXPECT_EQ(error_of("cars: 20", "cars: 60"), "");
   EXPECT_THAT(error_of("cars: 20", "cars: 61"),
-              HasSubstr(".yaml:16: draw.cars = 61, must be in 1 ... 60: no more cars fit"));
+              HasSubstr(".yaml:17: draw.cars = 61, must be in 1 ... 60: no more cars fit"));
   EXPECT_THAT(error_of("cars: 20", "cars: 256"),
               HasSubstr("draw.cars = 256, must be a whole number >= 1 and <= 255"));
   // One loop of twelve lanelets.
   EXPECT_THAT(error_of("[path 9,", "[path 9, path 11, path 9]", "]"),
-              HasSubstr(".yaml:16: draw.cars = 20, must be in 1 ... 12: no more cars fit"));
+              HasSubstr(".yaml:17: draw.cars = 20, must be in 1 ... 12: no more cars fit"));
 }
 
 TEST(LabCars, UnknownRoutesAreNamedWithTheirPlaces) {
   EXPECT_THAT(error_of("[path 9,", "[path 99,"),
-              HasSubstr(".yaml:17: draw.routes[1] = path 99, must be the name of"));
+              HasSubstr(".yaml:18: draw.routes[1] = path 99, must be the name of"));
   EXPECT_THAT(error_of("of: loop 2, from: 10", "of: loop 9, from: 10"),
               HasSubstr("of = loop 9, must be the name of a closed route above"));
   EXPECT_THAT(error_of("of: loop 2, from: 10", "of: loop 2, from: 999"),
@@ -278,9 +278,9 @@ std::string error_of_random(const std::string& routes, const std::string& vehicl
 TEST(RandomRoutes, OfAScenarioBeginInTheVehiclesLanelets) {
   EXPECT_EQ(error_of_random("random", "lanelet: 22, start_m: 0.1"), "");
   EXPECT_THAT(error_of_random("some", "lanelet: 22, start_m: 0.1"),
-              HasSubstr(".yaml:7: routes = some, must be random"));
+              HasSubstr(".yaml:8: routes = some, must be random"));
   EXPECT_THAT(error_of_random("random", "lanelet: 999, start_m: 0.1"),
-              AllOf(HasSubstr(".yaml:9: vehicles[1].lanelet = 999, must be a lanelet of the map"),
+              AllOf(HasSubstr(".yaml:10: vehicles[1].lanelet = 999, must be a lanelet of the map"),
                     HasSubstr("999 is not in the map")));
   EXPECT_THAT(error_of_random("random", "lanelet: 22, start_m: 5"), HasSubstr("start_m = 5"));
   EXPECT_THAT(error_of_random("random", "route: red, start_m: 5"), HasSubstr("lanelet"));
@@ -304,7 +304,7 @@ TEST(RandomRoutes, AStartWithoutAWayBackIsRefusedByItsLanelet) {
   choices.cars = 30;
   EXPECT_THAT([&] { static_cast<void>(read_scenario(choices)); },
               testing::ThrowsMessage<std::invalid_argument>(AllOf(
-                  HasSubstr(".yaml:17: draw.routes = (a list), must be starts for random routes: "),
+                  HasSubstr(".yaml:18: draw.routes = (a list), must be starts for random routes: "),
                   HasSubstr("no way leads back to lanelet 15"))));
 }
 

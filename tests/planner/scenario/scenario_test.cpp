@@ -53,12 +53,12 @@ class ScenarioErrors : public testing::Test {
 using testing::HasSubstr;
 
 TEST_F(ScenarioErrors, AnUnknownKeyIsNamedWithItsLine) {
-  EXPECT_THAT(error_of("max_exp", "mox_exp"), AllOf(HasSubstr(".yaml:9:"), HasSubstr("mox_exp")));
+  EXPECT_THAT(error_of("max_exp", "mox_exp"), AllOf(HasSubstr(".yaml:10:"), HasSubstr("mox_exp")));
 }
 
 TEST_F(ScenarioErrors, AnUnknownEngineIsNamedWithThoseThereAre) {
   EXPECT_THAT(error_of("horizon_steps: 8", "engine: fast"),
-              AllOf(HasSubstr(".yaml:7: engine = fast"),
+              AllOf(HasSubstr(".yaml:8: engine = fast"),
                     HasSubstr("must be one of branch_and_bound, best_first")));
 }
 
@@ -66,9 +66,9 @@ TEST_F(ScenarioErrors, CriterionWeightsAreOfTheAutomatonsCriteriaAndNotNegative)
   EXPECT_EQ(error_of("horizon_steps: 8", "criterion_weights: {J1: 0.5, J2: 0}"), "");
   EXPECT_THAT(
       error_of("horizon_steps: 8", "criterion_weights: {J9: 0.5}"),
-      HasSubstr(".yaml:7: criterion_weights.J9 = 0.5, must be criteria of the automaton's"));
+      HasSubstr(".yaml:8: criterion_weights.J9 = 0.5, must be criteria of the automaton's"));
   EXPECT_THAT(error_of("horizon_steps: 8", "criterion_weights: {J2: -0.5}"),
-              HasSubstr(".yaml:7: criterion_weights.J2 = -0.5, must be"));
+              HasSubstr(".yaml:8: criterion_weights.J2 = -0.5, must be"));
 }
 
 TEST_F(ScenarioErrors, AContouringWeightIsNotNegative) {
@@ -76,28 +76,28 @@ TEST_F(ScenarioErrors, AContouringWeightIsNotNegative) {
   EXPECT_EQ(error_of("horizon_steps: 8", "coordination: strict"), "");
   EXPECT_THAT(
       error_of("horizon_steps: 8", "coordination: polite"),
-      HasSubstr(".yaml:7: coordination = polite, must be one of agreed, cooperative, strict"));
+      HasSubstr(".yaml:8: coordination = polite, must be one of agreed, cooperative, strict"));
   EXPECT_THAT(error_of("horizon_steps: 8", "contouring_weight: -1"),
-              HasSubstr(".yaml:7: contouring_weight = -1, must be a number >= 0 and <= 10000"));
+              HasSubstr(".yaml:8: contouring_weight = -1, must be a number >= 0 and <= 10000"));
 }
 
 TEST_F(ScenarioErrors, TwoRoundsLeaveNoRoundForVotes) {
   EXPECT_EQ(error_of("horizon_steps: 8", "rounds: two"), "");
   EXPECT_EQ(error_of("horizon_steps: 8", "rounds: sequential"), "");
   EXPECT_THAT(error_of("horizon_steps: 8", "rounds: three"),
-              HasSubstr(".yaml:7: rounds = three, must be one of sequential, two"));
+              HasSubstr(".yaml:8: rounds = three, must be one of sequential, two"));
   EXPECT_EQ(error_of("horizon_steps: 8", "rounds: sequential\ncoordination: agreed"), "");
   EXPECT_THAT(error_of("horizon_steps: 8", "rounds: two\ncoordination: agreed"),
-              HasSubstr(".yaml:7: rounds = two, must be sequential with coordination: agreed"));
+              HasSubstr(".yaml:8: rounds = two, must be sequential with coordination: agreed"));
 }
 
 TEST_F(ScenarioErrors, RightOfWayIsOfClosedRoutesOnly) {
   const std::pair<std::string, std::string> open_route{"closed: true", "closed: false"};
   EXPECT_EQ(error_of("horizon_steps: 8", "right_of_way: true"), "");
   EXPECT_THAT(error_of("horizon_steps: 8", "right_of_way: maybe"),
-              HasSubstr(".yaml:7: right_of_way = maybe, must be"));
+              HasSubstr(".yaml:8: right_of_way = maybe, must be"));
   EXPECT_THAT(error_of({{"horizon_steps: 8", "right_of_way: true"}, open_route}),
-              HasSubstr("scenario.yaml:7: right_of_way = true, must be false: an open route is "
+              HasSubstr("scenario.yaml:8: right_of_way = true, must be false: an open route is "
                         "not supported"));
   EXPECT_EQ(error_of({{"horizon_steps: 8", "right_of_way: false"}, open_route}), "");
 }
@@ -108,12 +108,12 @@ TEST_F(ScenarioErrors, AWrongTypeIsNamedWithWhatIsAllowed) {
 
 TEST_F(ScenarioErrors, AnUnknownLaneletIsNamedWithItsPlace) {
   EXPECT_THAT(error_of("[1, 2, 3, 4, 5,", "[1, 2, 3, 4, 999,"),
-              HasSubstr(".yaml:20: routes[1].lanelets.ZAM_LabLike-1_1_T-1[5] = 999, must be"));
+              HasSubstr(".yaml:21: routes[1].lanelets.ZAM_LabLike-1_1_T-1[5] = 999, must be"));
 }
 
 TEST_F(ScenarioErrors, ARouteThatDoesNotCloseIsNamed) {
   EXPECT_THAT(error_of("7, 8, 9, 10]", "7, 8, 9]"),
-              HasSubstr(".yaml:20: routes[1].lanelets.ZAM_LabLike-1_1_T-1 = (a list), must be"));
+              HasSubstr(".yaml:21: routes[1].lanelets.ZAM_LabLike-1_1_T-1 = (a list), must be"));
 }
 
 TEST_F(ScenarioErrors, AMapWithoutARouteForItIsNamed) {
@@ -123,7 +123,7 @@ TEST_F(ScenarioErrors, AMapWithoutARouteForItIsNamed) {
 
 TEST_F(ScenarioErrors, StartPosesThatOverlapAreNamed) {
   EXPECT_THAT(error_of("name: blue, route: blue", "name: blue, route: red"),
-              AllOf(HasSubstr(".yaml:13: vehicles[2].start_m = 0.0, must be"),
+              AllOf(HasSubstr(".yaml:14: vehicles[2].start_m = 0.0, must be"),
                     HasSubstr("those of vehicles 1 and 2 do")));
 }
 
@@ -133,7 +133,7 @@ TEST_F(ScenarioErrors, AnIdBeyondThoseOfAProcessIsRefused) {
 
 TEST_F(ScenarioErrors, AnIdThatIsTakenTwiceIsRefused) {
   EXPECT_THAT(error_of("id: 2", "id: 1"),
-              HasSubstr(".yaml:13: vehicles[2].id = 1, must be unique"));
+              HasSubstr(".yaml:14: vehicles[2].id = 1, must be unique"));
 }
 
 TEST_F(ScenarioErrors, AMissingMapIsNamed) {
