@@ -141,9 +141,12 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $routes ]] || choices+=(--routes "$routes")
 check=("${choices[@]}")
 [[ -z $steps ]] || check+=(--steps "$steps")
-starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps) || exit 2
-steps=$(tail -n 1 <<<"$starts")
-starts=$(head -n -1 <<<"$starts")
+starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps --print_period) || exit 2
+period_ms=$(tail -n 1 <<<"$starts")
+steps=$(tail -n 2 <<<"$starts" | head -n 1)
+starts=$(head -n -2 <<<"$starts")
+[[ $period_ms =~ ^[0-9]+$ && $((period_ms % 50)) == 0 ]] ||
+  fail "scenario $scenario: the automaton's step_s is $period_ms ms, must be a multiple of 50 ms in the lab; rollout takes others"
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
 ((ids[-1] <= 30)) || fail "scenario $scenario: vehicle ${ids[-1]}, must be in 1 ... 30 in the lab; rollout and evaluate take more"
 [[ -n $stamps ]] || stamps=$(awk 'NR == 1 {print $3}' <<<"$starts")
@@ -339,7 +342,7 @@ vehicles=("${children[@]}")
 recorded=()
 $messages && recorded=(--messages "$out/messages")
 with_me "$bin/lab_control" "${flags[@]}" "${recorded[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" --steps "$steps" \
-  --on_death "$on_death" --startup_timeout_s "$startup_timeout_s" </dev/null &
+  --period_ms "$period_ms" --on_death "$on_death" --startup_timeout_s "$startup_timeout_s" </dev/null &
 children+=($!)
 lab_control=$!
 

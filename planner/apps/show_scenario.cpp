@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   hlc::scenario::ScenarioChoices choices;
   bool starts = false;
   bool steps = false;
+  bool period = false;
   hlc::apps::OutputFile plot{"--plot", {}};
   hlc::apps::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
@@ -70,6 +71,7 @@ int main(int argc, char** argv) {
   app.add_flag("--starts", starts,
                "print only `id x,y,yaw stamps` per vehicle (the next one may follow)");
   app.add_flag("--print_steps", steps, "print only the number of steps");
+  app.add_flag("--print_period", period, "print only the duration of a step [ms]");
   hlc::apps::declare_output(app, plot,
                             "draw lanes, reference paths and cars at the start (SVG, PDF); with "
                             "--starts also their poses: a sheet to place them by");
@@ -84,7 +86,8 @@ int main(int argc, char** argv) {
     hlc::apps::check_output_files({plot}, hlc::scenario::files_of(scenario));
     if (starts) print_starts(scenario);
     if (steps) std::printf("%zu\n", scenario.steps);
-    if (!starts && !steps) print_table(scenario);
+    if (period) std::printf("%g\n", 1e3 * scenario.subgraph->automaton().step_s);
+    if (!starts && !steps && !period) print_table(scenario);
     if (!plot.file) return 0;
     return hlc::plot::draw(starts ? "sheet" : "scenario", hlc::plot::scenario_data(scenario),
                            *plot.file);
