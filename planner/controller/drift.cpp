@@ -101,6 +101,7 @@ coordination::OccupiedAreas areas_with_drift(const coordination::Plan& plan, Ste
   coordination::OccupiedAreas areas = plan.areas_from(from);
   const std::vector<PredictedInstant> drive =
       predicted_drive(plan, seen, {std::max(plan.end(), from).value + kStepsToRest}, automaton);
+  bool drifts_at_end = false;
   for (auto begin = drive.begin(); begin != drive.end();) {
     const StepIndex step = begin->step;
     const auto end = std::find_if(begin, drive.end(), [step](const PredictedInstant& instant) {
@@ -120,8 +121,12 @@ coordination::OccupiedAreas areas_with_drift(const coordination::Plan& plan, Ste
             footprint_area(vehicle.footprint, instant->pose, vehicle.safety_margin_m));
       }
       area = convex_hull(covered);
+      drifts_at_end |= i >= areas.areas_m.size();
     }
     begin = end;
+  }
+  if (drifts_at_end && !areas.areas_m.empty()) {
+    areas.areas_m.back() = convex_hull(std::vector{areas.areas_m.back(), areas.final_area_m});
   }
   return areas;
 }

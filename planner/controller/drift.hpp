@@ -48,7 +48,9 @@ struct PredictedInstant {
 /// So the drive is predicted. In a step in which the predicted footprint deviates from the planned
 /// one (footprint_deviation_m) by more than `tolerated_m`, the area becomes the hull of the swept
 /// area and of all its predicted footprints grown by the safety margin; so does the final one, from
-/// the pose at the end. All other areas stay bitwise the same.
+/// the pose at the end. Then the last area becomes its hull with the final one, too: plans are
+/// compared until the horizon ends (coordination/commit.hpp), so whatever is free of the last area
+/// must be free of the vehicle at rest. All other areas stay bitwise the same.
 ///
 /// Assumption for the claim that the areas contain the vehicle: prediction and drive differ by no
 /// more than margin - tolerated_m (tests/vehicle_sim/campaign measures it in whole closed loops).

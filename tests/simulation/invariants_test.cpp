@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/coordination/certificate.hpp"
+
 namespace hlc::closed_loop {
 namespace {
 
@@ -102,6 +104,23 @@ TEST(Plans, ThatMeetAreToldWhenTheSecondComesIntoForce) {
   check.predicted(standing_at(kTwo, 11, 0.1));
   check.reported(report_of(kTwo, 11, coordination::StepStatus::kPlanned), nullptr, 0, violations);
   EXPECT_EQ(violations.size(), 1U);
+}
+
+/// From the end of the horizon on both stand; nothing else compares where.
+TEST(Plans, ThatMeetOnlyInTheEndAreNotFree) {
+  for (const double overlap_m : {5e-6, 1e-3}) {
+    PlansCheck check(1);
+    Violations violations;
+    for (const VehicleId vehicle : {kOne, kTwo}) {
+      coordination::Prediction one =
+          standing_at(vehicle, 10, vehicle == kOne ? 0.0 : 0.2 - overlap_m);
+      one.areas.areas_m = {square_at(vehicle == kOne ? -1.0 : 1.0)};
+      check.predicted(one);
+      check.reported(report_of(vehicle, 10, coordination::StepStatus::kPlanned), nullptr, 0,
+                     violations);
+    }
+    EXPECT_EQ(violations.empty(), overlap_m < coordination::kSeparationTolerance_m) << overlap_m;
+  }
 }
 
 TEST(Plans, OfWhoIsOffItsPlanOrSilentForLongAreLeftOut) {

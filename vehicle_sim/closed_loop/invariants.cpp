@@ -5,12 +5,23 @@
 #include <utility>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "planner/coordination/certificate.hpp"
 #include "planner/coordination/commit.hpp"
 #include "planner/coordination/missing.hpp"
 #include "planner/coordination/report.hpp"
 #include "planner/geometry/polygon.hpp"
+#include "planner/geometry/separating_line.hpp"
 
 namespace hlc::closed_loop {
+namespace {
+
+bool are_free_for_good(const coordination::OccupiedAreas& a, const coordination::OccupiedAreas& b,
+                       StepIndex from, std::size_t horizon_steps) {
+  return coordination::are_free(a, b, from, horizon_steps) &&
+         separating_line(a.final_area_m, b.final_area_m, coordination::kSeparationTolerance_m);
+}
+
+}  // namespace
 
 // --- footprints ---------------------------------------------------------------------------------
 
@@ -99,7 +110,7 @@ bool PlansCheck::is_relied_on(const InForce& plan, StepIndex now) const {
 bool PlansCheck::meet(const coordination::OccupiedAreas& areas, VehicleId other,
                       const InForce& plan, StepIndex now) const {
   const StepIndex from = std::max(areas.first, plan.areas.first);
-  if (coordination::are_free(areas, plan.areas, from, horizon_steps_)) return false;
+  if (are_free_for_good(areas, plan.areas, from, horizon_steps_)) return false;
   const bool has_run_out = now.value >= plan.areas.first.value + plan.areas.areas_m.size();
   return !has_run_out || standing_ == nullptr || !standing_->has(other) ||
          !coordination::are_free(areas, standing_->area(other), from, horizon_steps_);

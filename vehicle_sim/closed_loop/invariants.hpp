@@ -81,10 +81,11 @@ class FootprintsCheck {
 /// Plans in force are free of each other pair by pair, until both stand, whenever one of them
 /// changes. A plan is given by the areas that its vehicle has announced (Prediction::areas, with
 /// margin and predicted drift), since the others keep clear of these: the areas of the current step
-/// have been announced before. Final areas are not compared: the last area of a horizon contains
-/// the final one except for 2 um (Plan::areas_from), of which no vehicle keeps clear. A plan comes
-/// into force with a report `planned`, and stays when its controller is gone, until the next
-/// controller is on standby: its vehicle has then been seen standing for a horizon.
+/// have been announced before. Two final areas may overlap by coordination::kSeparationTolerance_m:
+/// the last area of a horizon contains the final one except for 2 um (Plan::areas_from), of which
+/// no vehicle keeps clear. A plan comes into force with a report `planned`, and stays when its
+/// controller is gone, until the next controller is on standby: its vehicle has then been seen
+/// standing for a horizon.
 ///
 /// A vehicle whose plan has run out stands; it is enough to be free of where it truly does.
 ///

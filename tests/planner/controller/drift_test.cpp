@@ -66,6 +66,21 @@ TEST(Drift, AHeldTrimBeyondTheSteeringLimitWidensTheAreasFromThereOn) {
   }
 }
 
+/// The others compare a plan with theirs until the horizon ends: what is free of its last area must
+/// be free of the vehicle at rest.
+TEST(Drift, TheLastAreaHoldsTheFinalOne) {
+  for (const auto& trims : {std::vector<std::size_t>{1, 4, 3, 2, 2, 2, 2, 2, 1},
+                            std::vector<std::size_t>{1, 12, 12, 12, 12, 12, 12, 12, 1},
+                            std::vector<std::size_t>{1, 2, 1}}) {
+    for (const double beside_m : {-0.03, 0.0, 0.03}) {
+      SeenAt seen = seen_standing();
+      seen.pose.y_m += beside_m;
+      const coordination::OccupiedAreas areas = announced(plan_through(trims), seen);
+      EXPECT_TRUE(contains(areas.areas_m.back(), areas.final_area_m, 5e-6)) << beside_m;
+    }
+  }
+}
+
 TEST(Drift, WhereTheVehicleIsPredictedIsHeldWithItsMargin) {
   const automaton::UniversalAutomaton& automaton = *automaton::paper_automaton();
   const coordination::Plan plan = plan_through({1, 12, 12, 12, 12, 12, 12, 12, 1});
