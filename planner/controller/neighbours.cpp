@@ -29,6 +29,7 @@ std::vector<VehicleId> Neighbours::silent(std::span<const VehicleId> active) {
 void Neighbours::receive(const coordination::ReceivedMessages<coordination::Traffic>& traffic,
                          const Observation& observation) {
   missing_.clear();
+  present_ = observation.present;
   for (const VehicleId other : observation.active) {
     if (other == own_) continue;
     std::shared_ptr<const coordination::Traffic> message = traffic.find(other, now_);
@@ -81,9 +82,7 @@ std::vector<const coordination::Traffic*> Neighbours::received() const {
 
 void Neighbours::update_liveness(const Observation& observation) {
   for (const VehicleId other : observation.active) {
-    const bool is_alive =
-        is_received(other) || is_received_by_any(other) ||
-        std::ranges::find(observation.present, other) != observation.present.end();
+    const bool is_alive = is_received(other) || is_received_by_any(other) || holds(present_, other);
     const auto [last, is_first] = last_sign_of_life_.try_emplace(other, now_);
     if (is_alive && !is_first) last->second = now_;
   }
@@ -107,7 +106,8 @@ bool Neighbours::stands_for_good(VehicleId vehicle, std::size_t horizon_steps) c
 
 bool Neighbours::is_cut_off(std::size_t horizon_steps) const {
   return received().empty() && std::ranges::any_of(missing_, [&](VehicleId other) {
-           return traffic_.contains(other) && !stands_for_good(other, horizon_steps);
+           return (traffic_.contains(other) || holds(present_, other)) &&
+                  !stands_for_good(other, horizon_steps);
          });
 }
 

@@ -61,8 +61,9 @@ class Neighbours {
   [[nodiscard]] const std::vector<VehicleId>& missing() const { return missing_; }
   /// Whether a missing vehicle is a standing obstacle. @pre it is one of `missing`
   [[nodiscard]] bool stands_for_good(VehicleId vehicle, std::size_t horizon_steps) const;
-  /// No active vehicle is received, although one was once that does not stand for good: these
-  /// controllers may receive this one no longer, and take it for one that stands for good.
+  /// No active vehicle is received, although one that does not stand for good was received once, or
+  /// its controller's process is present: these controllers may not receive this one, and take it
+  /// for one that stands for good.
   [[nodiscard]] bool is_cut_off(std::size_t horizon_steps) const;
 
  private:
@@ -81,6 +82,7 @@ class Neighbours {
   /// The last of each; of this step only if its step matches
   std::map<VehicleId, std::shared_ptr<const coordination::Traffic>> traffic_;
   std::vector<VehicleId> missing_;
+  std::vector<VehicleId> present_;  ///< Observation::present
   std::map<VehicleId, StepIndex> last_received_;
   /// Last step in which the vehicle's controller may have agreed to something: received or present.
   std::map<VehicleId, StepIndex> last_sign_of_life_;

@@ -19,7 +19,10 @@ inline constexpr double kMaxStateAge_s = 0.2;
 
 /// Bounds on the motion of a silent vehicle.
 struct MissingVehicleRules {
-  double max_speed_mps{};           ///< no vehicle of the lab drives faster under its controller
+  /// No vehicle of the lab drives faster under its controller, but for one whose command came late:
+  /// it may get beyond its reach by as much as it is behind its plan (limit in
+  /// controller/plan_in_force.hpp).
+  double max_speed_mps{};
   double circumradius_m{};          ///< of the footprint with its safety margin
   double standing_speed_mps{0.02};  ///< slower counts as standing
   Footprint footprint;
@@ -59,11 +62,12 @@ struct Silence {
 /// process is still present is missing for as long as it is silent, and the others avoid it.
 ///
 /// A controller that has lost all others although it still commands its vehicle does not drive off:
-/// as long as it receives nobody, and one of those that it has received before does not stand for
-/// good, it plans nothing new from standstill (seed 8592 in found_fault_test.cpp).
+/// as long as it receives nobody, and one that it has received before or whose process is present
+/// does not stand for good, it plans nothing new from standstill (seeds 8592 and 20923 in
+/// found_fault_test.cpp).
 /// Assumption for what this leaves (two groups of controllers, each of which receives its own
-/// members only; one for which all others stand for good; one that was started again and has
-/// received nobody yet): who shows no sign of life on the lab's network for this long cannot
+/// members only; one for which all others stand for good; one that was started again and finds no
+/// other's process): who shows no sign of life on the lab's network for this long cannot
 /// command its vehicle either, since commands use that network.
 [[nodiscard]] bool stands_for_good(const Silence& silence, std::size_t horizon_steps);
 

@@ -25,9 +25,11 @@ scenario::Scenario paper(std::size_t cars, std::uint64_t starts) {
 }
 
 FaultRunResult run(const scenario::Scenario& scenario, const LabSettings& lab,
-                   std::vector<Fault> faults) {
+                   std::vector<Fault> faults, bool keeps_records = false) {
   const FaultCase the_case{
-      .seed = lab.seed, .scenario = scenario, .run = {.lab = lab, .faults = std::move(faults)}};
+      .seed = lab.seed,
+      .scenario = scenario,
+      .run = {.lab = lab, .faults = std::move(faults), .keeps_records = keeps_records}};
   FaultRunResult result = FaultCampaign::run(the_case);
   EXPECT_GT(result.planned, 0U);
   for (const Violation& violation : result.violations) {
@@ -311,6 +313,32 @@ TEST(FoundFault, Seed8592WhoIsCutOffFromAllOthersDoesNotDriveOff) {
         .process = controller_name(2)},
        cut(1, 4'266'679'954),
        cut(4, 4'266'679'954)});
+}
+
+/// The same from before the first step on: it had never received anybody, so it missed nobody, and
+/// drove off while the others took it for one that stands for good.
+TEST(FoundFault, Seed20923WhoHasReceivedNobodyYetDoesNotDriveOffEither) {
+  std::vector<Fault> faults{{.kind = FaultKind::kFreeze,
+                             .begin = 2'829 * kMs,
+                             .end = 8'213 * kMs,
+                             .process = controller_name(2)}};
+  for (const std::uint8_t other : std::initializer_list<std::uint8_t>{1, 3, 4, 5, 6, 7}) {
+    faults.push_back({.kind = FaultKind::kCut,
+                      .begin = 2'829 * kMs,
+                      .end = 14'000 * kMs,
+                      .process = controller_name(2),
+                      .peer = controller_name(other)});
+  }
+  const FaultRunResult result =
+      run(paper(7, 0xe593cdb42229edc), {.seed = 20923, .transport = Transport::kLab}, faults, true);
+  std::size_t seen = 0;
+  for (const ReportRecord& record : result.records->reports) {
+    const coordination::Report& report = record.report;
+    if (report.vehicle != VehicleId{2} || report.missing.size() < 6) continue;
+    ++seen;
+    EXPECT_NE(report.status, coordination::StepStatus::kPlanned) << report.step.value;
+  }
+  EXPECT_GT(seen, 0U) << "steps in which it receives nobody";
 }
 
 }  // namespace

@@ -94,8 +94,8 @@ TEST_F(NeighboursTest, StepsInWhichNobodyWasLookedAtShowNobodyStanding) {
 }
 
 TEST_F(NeighboursTest, WhoReceivesNobodyIsCutOffUnlessAllStandForGood) {
-  for (int i = 0; i < 20; ++i) step({}, {{2}});
-  EXPECT_FALSE(neighbours_.is_cut_off(kHorizon));  // nobody was ever received
+  step({});
+  EXPECT_FALSE(neighbours_.is_cut_off(kHorizon));  // nobody was ever there
   step({2, 3});
   EXPECT_FALSE(neighbours_.is_cut_off(kHorizon));
   step({3});
@@ -105,6 +105,13 @@ TEST_F(NeighboursTest, WhoReceivesNobodyIsCutOffUnlessAllStandForGood) {
   for (int i = 0; i < 20; ++i) step({}, {{2}});
   EXPECT_TRUE(neighbours_.is_cut_off(kHorizon));
   for (int i = 0; i < 20; ++i) step({});
+  EXPECT_FALSE(neighbours_.is_cut_off(kHorizon));
+}
+
+TEST_F(NeighboursTest, WhoHasReceivedNobodyYetIsCutOffWhileAProcessIsPresent) {
+  step({}, {{2}});
+  EXPECT_TRUE(neighbours_.is_cut_off(kHorizon));
+  step({3}, {{2}});
   EXPECT_FALSE(neighbours_.is_cut_off(kHorizon));
 }
 
