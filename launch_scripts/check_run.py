@@ -6,12 +6,11 @@ area of a vehicle during step s under the plan that is in force as step k ends.
 
   record      its steps are in order, each once; every report but those on standby has a certificate;
   areas       every area is convex, counter-clockwise, larger than the footprint;
-  standstill  the plan has as many areas as maneuvers, then a standstill, in the last one unless a drift enlarges it;
+  standstill  the plan has as many areas as maneuvers, then a standstill, which lies in the last one;
   plan        A_k(k) holds A_(k-1)(k); a plan that was kept has the areas that it had, A_k(s) = A_(k-1)(s) for s >= k;
   line        every line touches the own area of its step, and what was known of the other vehicle is beyond it;
   pair        two vehicles share no point from step k+1 on; coupled ones have a line between them in the horizon;
   driven      the driven footprint lies in the area of its step, beyond the others' lines (at most half a second late).
-
 Counted, not rejected: pairs and poses of a vehicle to whose areas nobody has agreed (off its plan, not seen, or new).
 """
 import argparse
@@ -27,10 +26,10 @@ import sys
 
 TOUCH_M = 1e-6  # a line and the area that it touches; a corner and the lines of the edges
 APART_M = 2e-5  # overlap of areas that are apart: a standstill may lie 2 um outside the last area of its plan
-SAME_M = 1e-7  # corners of an area in two records
-# How far the area of another vehicle may reach over the line; a missing one may be seen beside its standstill.
+# How far the area of another vehicle may reach over the line. A missing one may be seen beside its standstill; and what
+# it can reach begins where it is seen, which is behind its plan if its commands arrived late.
 DEPTH_M = {"running": APART_M, "new": APART_M, "reachable": APART_M, "missing": 1e-2}
-DRIVEN_M = 1e-4  # a footprint outside its area
+SAME_M, DRIVEN_M = 1e-7, 1e-4  # corners of an area in two records; a footprint outside its area
 LATE_M, LATE_NS = 0.035, 500_000_000  # of a late car: those of the lab start so late; in real time commands are lost
 BEFORE_STEPS = 3  # a vehicle that is off its plan is seen so at the latest so many steps later
 
@@ -104,15 +103,17 @@ def edges(area):
     """(n_x, n_y, offset) of every edge, n pointing outwards."""
     found = []
     for (ax, ay), (bx, by) in zip(area, area[1:] + area[:1]):
-        length = math.hypot(bx - ax, by - ay)
-        if length > 1e-9:  # of a shorter one the direction is rounding
+        if (length := math.hypot(bx - ax, by - ay)) > 1e-9:  # of a shorter one the direction is rounding
             n = ((by - ay) / length, (ax - bx) / length)
             found.append((*n, n[0] * ax + n[1] * ay))
     return found
 
 
 def overlap(a, b):
-    """How far one must move to be apart, over the normals of all edges [m]; < 0: by so much they are."""
+    """How far one must move to be apart, over the normals of all edges [m]; < 0: they are, by so much at least."""
+    gap = max(min(p[i] for p in one) - max(p[i] for p in other) for one, other in ((a, b), (b, a)) for i in (0, 1))
+    if gap > 0:  # along an axis: most pairs
+        return -gap
     return min(-beyond(other, line)[0] for one, other in ((a, b), (b, a)) for line in edges(one))
 
 
@@ -150,10 +151,12 @@ class Check:
                 raise ValueError(f"period_ns = {self.period}, must be > 0")
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise Unreadable(f"{run / 'run.json'}: {type(error).__name__}: {error}") from error
-        files = {vehicle: run / f"vehicle_{vehicle}.csv" for vehicle in vehicles}
-        self.drives = {vehicle: rows_of(file, pose) for vehicle, file in files.items() if file.exists()}
+        files = [(vehicle, run / f"vehicle_{vehicle}.csv") for vehicle in vehicles]
+        self.drives = [(one, *sample) for one, file in files if file.exists() for sample in rows_of(file, pose)]
         # Of a report that arrived twice the last one counts, as in the summary.
         self.reports = {one["key"]: one for one in rows_of(run / "reports.csv", report)}
+        self.late = {key: math.dist(at[:2], self.reports[key]["pose"][:2])  # from the planned pose, as the step begins
+                     for one, time, *at in reversed(self.drives) if (key := (time // self.period, one)) in self.reports}
         self.certificates, last, self.against = {}, {}, collections.defaultdict(list)
         for one in rows_of(run / "certificates.csv", Certificate):
             if one.step <= last.get(one.id, -1):
@@ -161,8 +164,6 @@ class Check:
             last[one.id] = max(last.get(one.id, -1), one.step)
             self.certificates[one.step, one.id] = one
         self.horizon = max((len(ls) for one in self.certificates.values() for _, _, ls in one.separations), default=0)
-        stands = ((one.id, size(one.standstill)) for one in self.certificates.values() if one.standstill)
-        self.least = dict(sorted(stands, reverse=True))  # the smallest of each vehicle [m^2] is its last
 
     def reject(self, check, step, vehicle, what, allowed, file="certificates.csv"):
         self.violations.append(f"{file}: vehicle {vehicle}, step {step}: {check}: {what}, must be {allowed}")
@@ -182,13 +183,12 @@ class Check:
         for _, ones in itertools.groupby(self.certificates.values(), lambda one: one.step):
             for a, b in itertools.combinations(ones, 2):
                 self.pair(a, b)
-        for vehicle, sample in ((vehicle, sample) for vehicle, drive in self.drives.items() for sample in drive):
-            self.pose(vehicle, *sample)
+        for sample in self.drives:
+            self.pose(*sample)
 
     def areas(self, one):
         if not one.standstill:
-            self.reject("standstill", one.step, one.id, "none", "an area")
-            return False
+            return self.reject("standstill", one.step, one.id, "none", "an area")
         before, least = len(self.violations), one.length_m * one.width_m
         for step, area in enumerate(one.areas + [one.standstill], one.step):
             if len(area) < 3 or size(area) < least:
@@ -198,10 +198,8 @@ class Check:
         is_sound, named = len(self.violations) == before, self.reports[one.step, one.id]["maneuvers"]
         if is_sound and one.is_agreed and len(one.areas) != named and (one.areas or named != 1):
             self.reject("standstill", one.step, one.id, f"{len(one.areas)} areas before it", f"{named}, as maneuvers")
-        elif is_sound and one.is_agreed and one.areas:
-            is_enlarged = size(one.standstill) > 1.001 * self.least[one.id]
-            if (out := outside(one.areas[-1], one.standstill)) > APART_M and not is_enlarged:
-                self.reject("standstill", one.step, one.id, f"{mm(out)} outside the last area", f"<= {mm(APART_M)}")
+        elif is_sound and one.is_agreed and one.areas and (out := outside(one.areas[-1], one.standstill)) > APART_M:
+            self.reject("standstill", one.step, one.id, f"{mm(out)} outside the last area", f"<= {mm(APART_M)}")
         return is_sound
 
     def plan(self, one):
@@ -224,25 +222,27 @@ class Check:
         its = self.certificates.get((one.step, other))
         is_known = its is not None and (its.is_agreed if known in ("reachable", "missing") else
                                         (known == "new") == self.reports[its.step, its.id]["is_new"])
+        depth = DEPTH_M[known] + (self.late.get((one.step, other), 0) if known == "missing" else 0)
         if is_known or known in ("reachable", "missing"):
             self.against[one.step + 1, other] += lines[:1]
         for step, line in enumerate(lines, one.step + 1):
             if abs(gap := beyond(one.during(step), line)[1]) > TOUCH_M:
                 self.reject("line", one.step, one.id, f"the area during step {step} ends {mm(gap)} beyond the line to "
                             f"vehicle {other} ({known})", f"0, up to {mm(TOUCH_M)}")
-            if is_known and (gap := -beyond(its.during(step), line)[0]) > DEPTH_M[known]:
+            if is_known and (gap := -beyond(its.during(step), line)[0]) > depth:
                 what = f"vehicle {other} ({known}) is {mm(gap)} on this side of it during step {step}"
-                self.reject("line", one.step, one.id, what, f"<= {mm(DEPTH_M[known])}")
+                self.reject("line", one.step, one.id, what, f"<= {mm(depth)}")
 
     def pair(self, a, b):
         both = ((a, b), (b, a))
-        lines = [(known, its, lines) for one, its in both for other, known, lines in one.separations if other == its.id]
+        lines = [(DEPTH_M[known], one, its, found) for one, its in both for other, known, found in one.separations
+                 if other == its.id]
         is_coupled = any(its.id in self.reports[one.step, one.id]["coupled"] for one, its in both)
-        for step in range(a.step + 1, max(a.end, b.end, a.step + 1) + 1):
-            index = step - a.step - 1
-            depth = overlap(a.during(step), b.during(step))
-            is_proven = any(index < len(found) and -beyond(its.during(step), found[index])[0] <= DEPTH_M[known]
-                            for known, its, found in lines)
+        for index, step in enumerate(range(a.step + 1, max(a.end, b.end, a.step + 1) + 1)):
+            is_proven = any(
+                beyond(one.during(step), line)[1] <= APART_M and -beyond(its.during(step), line)[0] <= most
+                for most, one, its, found in lines for line in found[:index + 1][-1:])  # after the horizon its last one
+            depth = None if is_proven else overlap(a.during(step), b.during(step))
             if is_proven or (depth <= APART_M and not (is_coupled and index < self.horizon)):
                 self.counts["pairs apart by a line" if is_proven else "pairs apart, not coupled or standing"] += 1
             elif not (a.is_agreed and b.is_agreed):
