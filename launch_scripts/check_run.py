@@ -9,7 +9,7 @@ area of a vehicle during step s under the plan that is in force as step k ends.
   standstill  the plan has as many areas as maneuvers, then a standstill, which lies in the last one;
   plan        A_k(k) holds A_(k-1)(k); a plan that was kept has the areas that it had, A_k(s) = A_(k-1)(s) for s >= k;
   line        every line touches the own area of its step, and what was known of the other vehicle is beyond it;
-  pair        two vehicles share no point from step k+1 on; coupled ones have a line between them in the horizon;
+  pair        two vehicles share no point from step k+1 on, coupled ones by a line, if not both have kept their plan;
   driven      the driven footprint lies in the area of its step, beyond the others' lines (at most half a second late).
 Counted, not rejected: pairs and poses of a vehicle to whose areas nobody has agreed (off its plan, not seen, or new).
 """
@@ -99,8 +99,7 @@ def beyond(area, line):
     return min(distances), max(distances)
 
 
-def edges(area):
-    """(n_x, n_y, offset) of every edge, n pointing outwards."""
+def edges(area):  # (n_x, n_y, offset) of each, n pointing outwards
     found = []
     for (ax, ay), (bx, by) in zip(area, area[1:] + area[:1]):
         if (length := math.hypot(bx - ax, by - ay)) > 1e-9:  # of a shorter one the direction is rounding
@@ -117,13 +116,11 @@ def overlap(a, b):
     return min(-beyond(other, line)[0] for one, other in ((a, b), (b, a)) for line in edges(one))
 
 
-def outside(outer, inner):
-    """How far `inner` reaches out of the convex `outer` [m]."""
+def outside(outer, inner):  # how far `inner` reaches out of the convex `outer` [m]
     return max(beyond(inner, line)[1] for line in edges(outer))
 
 
-def size(area):
-    """[m^2], > 0 counter-clockwise."""
+def size(area):  # [m^2], > 0 counter-clockwise
     return sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(area, area[1:] + area[:1])) / 2
 
 
@@ -157,7 +154,7 @@ class Check:
         self.reports = {one["key"]: one for one in rows_of(run / "reports.csv", report)}
         self.late = {key: math.dist(at[:2], self.reports[key]["pose"][:2])  # from the planned pose, as the step begins
                      for one, time, *at in reversed(self.drives) if (key := (time // self.period, one)) in self.reports}
-        self.certificates, last, self.against = {}, {}, collections.defaultdict(list)
+        self.certificates, last, self.against, self.kept = {}, {}, collections.defaultdict(list), set()
         for one in rows_of(run / "certificates.csv", Certificate):
             if one.step <= last.get(one.id, -1):
                 self.reject("record", one.step, one.id, f"stands after step {last[one.id]}", "in order, each step once")
@@ -210,6 +207,7 @@ class Check:
         if before is None or not (before.is_agreed and one.is_agreed):
             return self.counts.update(["plans that continue none that was agreed"])
         is_new = self.reports[one.step, one.id]["is_new"]
+        self.kept |= set() if is_new else {(one.step, one.id)}
         for step in range(one.step, one.step + 1 if is_new else max(before.end, one.end) + 1):  # to the standstills
             now, then = one.during(step), before.during(step)
             if (out := max(outside(now, then), 0 if is_new else outside(then, now))) > SAME_M:
@@ -234,6 +232,8 @@ class Check:
                 self.reject("line", one.step, one.id, what, f"<= {mm(depth)}")
 
     def pair(self, a, b):
+        if {(a.step, a.id), (b.step, b.id)} <= self.kept:  # also if they were not coupled then, and now are
+            return self.counts.update(["pairs of kept plans, apart since the step before"])
         both = ((a, b), (b, a))
         lines = [(DEPTH_M[known], one, its, found) for one, its in both for other, known, found in one.separations
                  if other == its.id]

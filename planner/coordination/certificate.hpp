@@ -38,8 +38,9 @@ struct Separation {
 /// Let A_i be the areas of vehicle i. For two coupled vehicles i and j, one of the certificates of
 /// step k has a line for every step from k+1 on with A_i behind and A_j beyond it: whoever put a
 /// new plan in force has lines against the other's running and new plan (commit.hpp); if none did,
-/// both have lines against the running ones. The exception is a vehicle whose areas nobody has
-/// agreed to.
+/// both have lines against the running ones. The exceptions are a vehicle whose areas nobody has
+/// agreed to, and two that have kept their plans since before they were coupled: if one was missing
+/// then, the other kept clear of where it was seen standing, which may be beside its areas.
 struct Certificate {
   Footprint footprint;  ///< of the vehicle, without margin
   OccupiedAreas areas;  ///< first = k; the plan ends standing in its final area
