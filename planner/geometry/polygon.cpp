@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "planner/common/demand.hpp"
 #include "planner/geometry/cross.hpp"
@@ -179,6 +180,17 @@ ConvexPolygon convex_hull(std::span<const ConvexPolygon> areas) {
     points.insert(points.end(), area.vertices_m.begin(), area.vertices_m.end());
   }
   return convex_hull(std::move(points));
+}
+
+ConvexPolygon around_circle(const Point& middle_m, double radius_m) {
+  constexpr double kHalfAngle_rad = std::numbers::pi / double{kCircleCorners};
+  ConvexPolygon polygon;
+  for (std::size_t i = 0; i < kCircleCorners; ++i) {
+    const double angle_rad = 2.0 * kHalfAngle_rad * static_cast<double>(i);
+    polygon.vertices_m.emplace_back(middle_m + radius_m / std::cos(kHalfAngle_rad) *
+                                                   Point(std::cos(angle_rad), std::sin(angle_rad)));
+  }
+  return polygon;
 }
 
 ConvexPolygon transformed(const ConvexPolygon& polygon, const Pose& frame) {

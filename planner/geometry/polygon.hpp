@@ -57,6 +57,12 @@ inline constexpr double kRoundingAllowance_m = 1e-12;
 /// single point, nothing.
 [[nodiscard]] std::vector<Point> hull_vertices(std::vector<Point> points_m);
 
+/// Corners of the polygon that takes the place of a circle.
+inline constexpr std::size_t kCircleCorners = 16;
+/// The regular polygon of kCircleCorners corners that the circle touches from within: no point of
+/// the circle is outside, and no corner farther from it than 2 % of the radius.
+[[nodiscard]] ConvexPolygon around_circle(const Point& middle_m, double radius_m);
+
 /// The polygon, given in `frame`, in the frame that `frame` itself is given in.
 [[nodiscard]] ConvexPolygon transformed(const ConvexPolygon& polygon, const Pose& frame);
 

@@ -51,8 +51,9 @@ struct LaneletMap {
 /// Least distance between points of the same index of a lanelet's two bounds. [m]
 [[nodiscard]] double narrowest_lane_m(const LaneletMap& map);
 
-/// Reads the lanelets of a CommonRoad 2020a file. Everything else in it (intersections, signs,
-/// obstacles, ...) is skipped, so a lanelet may share its id with another kind of element.
+/// Reads the lanelets of a CommonRoad file, 2020a or 2018b. Everything else in it is skipped, so a
+/// lanelet may share its id with another kind of element; for what is not to be skipped see
+/// map_obstacles.hpp.
 /// @throws std::runtime_error one line, `file:line: fault and bound`: file that cannot be read, not
 /// XML, other root or version, no benchmarkID, no lanelet; a lanelet with missing, repeated or
 /// unknown id, a bound missing, with fewer than 2 points or not as long as the other, a number that

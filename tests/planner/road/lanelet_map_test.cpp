@@ -48,6 +48,12 @@ std::string error_of(const std::string& xml) {
   return "no error";
 }
 
+TEST(LaneletMap, IsReadFromBothVersionsOfTheFormat) {
+  const std::string content = lanelet("7", "", kBounds);
+  EXPECT_EQ(parse_lanelet_map(file_with(content, "2018b"), "map.xml"),
+            parse_lanelet_map(file_with(content), "map.xml"));
+}
+
 TEST(LaneletMap, ReadsBoundsReferencesAndNeighbours) {
   const LaneletMap map = parse_lanelet_map(
       file_with(lanelet("7",
@@ -86,7 +92,7 @@ TEST(LaneletMap, ErrorsNameFileLineValueAndWhatIsAllowed) {
       {"lanelets: []", {"not well-formed XML"}},
       {replaced(good, "</lanelet>", ""), {"not well-formed XML"}},
       {"<osm/>", {"map.xml:1: ", "<commonRoad>"}},
-      {file_with(lanelet("7", "", kBounds), "2018b"), {"map.xml:2: ", "\"2018b\"", "\"2020a\""}},
+      {file_with(lanelet("7", "", kBounds), "2017a"), {"map.xml:2: ", "\"2017a\"", "\"2020a\""}},
       {replaced(good, " commonRoadVersion=\"2020a\"", ""), {"map.xml:2: ", "commonRoadVersion"}},
       {replaced(good, " benchmarkID=\"ZAM_A&amp;B-1\"", ""), {"map.xml:2: ", "benchmarkID"}},
       {file_with(""), {"map.xml:2: ", "at least one"}},
