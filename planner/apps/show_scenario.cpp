@@ -56,22 +56,34 @@ void print_starts(const hlc::scenario::Scenario& scenario) {
   }
 }
 
+/// What to print instead of the table.
+struct Parts {
+  bool starts{};
+  bool steps{};
+  bool period{};
+};
+
+void print(const hlc::scenario::Scenario& scenario, const Parts& parts) {
+  if (parts.starts) print_starts(scenario);
+  if (parts.steps) std::printf("%zu\n", scenario.steps);
+  if (parts.period) std::printf("%g\n", 1e3 * scenario.subgraph->automaton().step_s);
+  if (!parts.starts && !parts.steps && !parts.period) print_table(scenario);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Checks a scenario file and describes a run of it.", "show_scenario"};
   hlc::scenario::ScenarioChoices choices;
-  bool starts = false;
-  bool steps = false;
-  bool period = false;
+  Parts parts;
   hlc::apps::OutputFile plot{"--plot", {}};
   hlc::apps::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::apps::whole(1, 100000));
-  app.add_flag("--starts", starts,
+  app.add_flag("--starts", parts.starts,
                "print only `id x,y,yaw stamps` per vehicle (the next one may follow)");
-  app.add_flag("--print_steps", steps, "print only the number of steps");
-  app.add_flag("--print_period", period, "print only the duration of a step [ms]");
+  app.add_flag("--print_steps", parts.steps, "print only the number of steps");
+  app.add_flag("--print_period", parts.period, "print only the duration of a step [ms]");
   hlc::apps::declare_output(app, plot,
                             "draw lanes, reference paths and cars at the start (SVG, PDF); with "
                             "--starts also their poses: a sheet to place them by");
@@ -84,12 +96,9 @@ int main(int argc, char** argv) {
     hlc::apps::check_output_files({plot}, inputs);
     const hlc::scenario::Scenario scenario = hlc::scenario::read_scenario(choices);
     hlc::apps::check_output_files({plot}, hlc::scenario::files_of(scenario));
-    if (starts) print_starts(scenario);
-    if (steps) std::printf("%zu\n", scenario.steps);
-    if (period) std::printf("%g\n", 1e3 * scenario.subgraph->automaton().step_s);
-    if (!starts && !steps && !period) print_table(scenario);
+    print(scenario, parts);
     if (!plot.file) return 0;
-    return hlc::plot::draw(starts ? "sheet" : "scenario", hlc::plot::scenario_data(scenario),
+    return hlc::plot::draw(parts.starts ? "sheet" : "scenario", hlc::plot::scenario_data(scenario),
                            *plot.file);
   };
   return hlc::apps::exit_code_of("show_scenario", run, kExitFailed);

@@ -7,11 +7,11 @@
 namespace hlc::controller {
 
 const std::map<std::string, CoordinationRule>& coordination_rules() {
-  static const std::map<std::string, CoordinationRule> rules{
+  static const std::map<std::string, CoordinationRule> kRules{
       {"agreed", kAgreedCoordination},
       {"cooperative", kCooperativeCoordination},
       {"strict", kStrictCoordination}};
-  return rules;
+  return kRules;
 }
 
 std::string_view name_of(const CoordinationRule& rule) {
