@@ -137,7 +137,7 @@ void ParticipantCore::on_refused(const frtps::GuidPrefix_t& participant) {
   const auto name = update([&] { return authenticated_.refused(key_of(participant)); });
   if (!name) return;
   options_.on_loss(fmt::format(
-      "participant \"{}\" ({:02x}) refused (logged once): it has no identity of the authority of "
+      "participant \"{}\" ({:02x}) refused (logged once): not authenticated by the authority of "
       "{}",
       name_in_log(*name), fmt::join(participant.value, ""), options_.security.string()));
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "planner/common/demand.hpp"
-
 namespace hlc::controller {
 
 const std::map<std::string, CoordinationRule>& coordination_rules() {
@@ -17,8 +15,7 @@ const std::map<std::string, CoordinationRule>& coordination_rules() {
 std::string_view name_of(const CoordinationRule& rule) {
   const auto found = std::ranges::find(coordination_rules(), rule,
                                        &std::pair<const std::string, CoordinationRule>::second);
-  HLC_DEMAND(found != coordination_rules().end());
-  return found->first;
+  return found == coordination_rules().end() ? std::string_view("other") : found->first;
 }
 
 }  // namespace hlc::controller

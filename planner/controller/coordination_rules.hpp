@@ -12,7 +12,7 @@ namespace hlc::controller {
 /// `agreed`. A further rule is one more entry.
 [[nodiscard]] const std::map<std::string, CoordinationRule>& coordination_rules();
 
-/// @pre it is one of them
+/// "other" if it is none of them.
 [[nodiscard]] std::string_view name_of(const CoordinationRule& rule);
 
 }  // namespace hlc::controller

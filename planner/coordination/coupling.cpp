@@ -13,7 +13,7 @@ CouplingGraph::CouplingGraph(std::vector<const Traffic*> traffic, const Coupling
   for (const Traffic* one : traffic) vehicles_.push_back(one->vehicle);
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     for (std::size_t j = i + 1; j < traffic.size(); ++j) {
-      if (rule.are_coupled(*traffic[i], *traffic[j])) {
+      if (coordination::are_coupled(*traffic[i], *traffic[j], rule)) {
         neighbours_[i].push_back(j);
         neighbours_[j].push_back(i);
       }

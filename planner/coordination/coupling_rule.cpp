@@ -6,19 +6,19 @@
 namespace hlc::coordination {
 namespace {
 
-bool may_meet(const Traffic& a, const Traffic& b) {
-  return intersects(a.reachable_area_m, b.reachable_area_m);
-}
+bool never(const Traffic& /*a*/, const Traffic& /*b*/) { return false; }
 
 bool always(const Traffic& /*a*/, const Traffic& /*b*/) { return true; }
 
 }  // namespace
 
-constinit const CouplingRule kReachableAreas{.name = "reachable_areas",
-                                             .meaning = "who may meet within the horizon",
-                                             .are_coupled = &may_meet};
-constinit const CouplingRule kAllVehicles{
-    .name = "all", .meaning = "everybody with everybody", .are_coupled = &always};
+constinit const CouplingRule kReachableAreas{.name = "reachable_areas", .couples_also = &never};
+constinit const CouplingRule kAllVehicles{.name = "all", .couples_also = &always};
+
+bool are_coupled(const Traffic& a, const Traffic& b, const CouplingRule& rule) {
+  return intersects(a.reachable_area_m, b.reachable_area_m) || rule.couples_also(a, b) ||
+         rule.couples_also(b, a);
+}
 
 std::span<const CouplingRule* const> coupling_rules() {
   static constexpr std::array kAll{&kReachableAreas, &kAllVehicles};

@@ -11,15 +11,18 @@ namespace hlc::coordination {
 
 /// Which vehicles take part in each other's planning. A rule is one function.
 ///
-/// Safety needs that it couples all that may meet within the horizon: a vehicle plans around the
-/// plans of coupled vehicles only.
+/// A vehicle plans around the plans of coupled vehicles only. So those that may meet within the
+/// horizon are coupled whatever the rule: it can only add further ones.
 struct CouplingRule {
   std::string_view name;
-  std::string_view meaning;  ///< for documents and --help
-  /// Symmetric, and true wherever the reachable areas intersect: a pure function of what the two
-  /// announced, so that all who received the same couple the same.
-  bool (*are_coupled)(const Traffic& a, const Traffic& b);
+  /// Of vehicles whose reachable areas are apart: a pure function of what the two announced, so
+  /// that all who received the same couple the same. Two are coupled if it is true either way
+  /// round.
+  bool (*couples_also)(const Traffic& a, const Traffic& b);
 };
+
+/// Both ways round alike.
+[[nodiscard]] bool are_coupled(const Traffic& a, const Traffic& b, const CouplingRule& rule);
 
 /// Who may meet within the horizon: the reachable areas intersect.
 extern const CouplingRule kReachableAreas;

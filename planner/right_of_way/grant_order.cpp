@@ -19,13 +19,8 @@ bool has_waited_longer(const Holder& a, const Holder& b) {
 
 }  // namespace
 
-constinit const GrantOrder kLongestWait{
-    .name = "longest_wait",
-    .meaning = "who has waited longest, then who is nearest to the end of its authority",
-    .is_before = &has_waited_longer};
-constinit const GrantOrder kNearestEnd{.name = "nearest_end",
-                                       .meaning = "who is nearest to the end of its authority",
-                                       .is_before = &is_nearer_to_its_end};
+constinit const GrantOrder kLongestWait{.name = "longest_wait", .is_before = &has_waited_longer};
+constinit const GrantOrder kNearestEnd{.name = "nearest_end", .is_before = &is_nearer_to_its_end};
 
 std::span<const GrantOrder* const> grant_orders() {
   static constexpr std::array kAll{&kLongestWait, &kNearestEnd};

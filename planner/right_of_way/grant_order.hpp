@@ -20,7 +20,6 @@ struct Holder {
 /// Whose authority is extended first (grant.hpp). A rule is one function.
 struct GrantOrder {
   std::string_view name;
-  std::string_view meaning;  ///< for documents and --help
   /// True if a comes before b: a strict weak order, a pure function of what the two announced.
   /// Vehicles that are alike in it follow by their ids.
   bool (*is_before)(const Holder& a, const Holder& b);

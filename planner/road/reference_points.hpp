@@ -35,7 +35,7 @@ struct NamedReferenceRule {
 [[nodiscard]] std::span<const NamedReferenceRule> reference_rules();
 /// nullptr: there is none of this name.
 [[nodiscard]] ReferenceRule reference_rule(std::string_view name);
-/// @pre it is one of reference_rules()
+/// "other" if it is none of reference_rules().
 [[nodiscard]] std::string_view name_of(ReferenceRule rule);
 
 /// Reference of one plan: r_1 ... r_n, their arc lengths and the speed of each step.

@@ -76,6 +76,13 @@ TEST_F(Replica, OnAnotherBasisCannotPlan) {
              [](ControllerOptions& options) {
                options.strategies.coordination = kStrictCoordination;
              },
+             [](ControllerOptions& options) {
+               options.strategies.coupling = &coordination::kAllVehicles;
+             },
+             [](ControllerOptions& options) {
+               options.strategies.grant_order = &right_of_way::kNearestEnd;
+             },
+             [](ControllerOptions& options) { options.reference_rule = road::mean_speed_first; },
              [](ControllerOptions& options) { options.deviation.reanchor_share = 0.6; },
              [](ControllerOptions& options) { options.lab = vehicle::LabLimits{}; }}) {
       result.push_back(sharing(2, 0.3, change));

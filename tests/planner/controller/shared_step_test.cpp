@@ -95,7 +95,14 @@ TEST(SharedStep, GrantsAreThoseOfWhatIsHeldAndBlocked) {
   expect_granted(map, moved, none, 0.5);
   for (std::size_t i = 1; i < seen.size(); ++i) EXPECT_NE(seen[i], seen[i - 1]) << i;
   expect_granted(other_map, moved, none, 0.5);
-  expect_granted(other_map, moved, none, 0.5, right_of_way::kNearestEnd);
+  static bool is_asked = false;
+  const right_of_way::GrantOrder asking{
+      .name = "asking", .is_before = [](const right_of_way::Holder&, const right_of_way::Holder&) {
+        is_asked = true;
+        return false;
+      }};
+  static_cast<void>(shared.granted(other_map, moved, none, 0.5, asking));
+  EXPECT_TRUE(is_asked) << "grants of another order were kept";
 }
 
 }  // namespace

@@ -33,19 +33,27 @@ TEST(CouplingRules, HaveNamesOfTheirOwn) {
   EXPECT_EQ(coupling_rule("none"), nullptr);
 }
 
-// What safety needs of each.
+bool of_larger_id(const Traffic& a, const Traffic& b) { return a.vehicle < b.vehicle; }
+bool never(const Traffic& /*a*/, const Traffic& /*b*/) { return false; }
+
+// What safety needs of each, also of one whose function does not look at the areas, or treats the
+// two differently.
 TEST(CouplingRules, CoupleBothWaysAllThatMayMeet) {
+  const CouplingRule one_way{.name = "one way", .couples_also = &of_larger_id};
+  const CouplingRule none{.name = "none", .couples_also = &never};
+  std::vector<const CouplingRule*> rules{&one_way, &none};
+  rules.insert(rules.end(), coupling_rules().begin(), coupling_rules().end());
   std::size_t coupled = 0;
   for (std::uint64_t seed = 0; seed < test::num_seeds(50); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     const std::vector<Traffic> traffic = drawn(random);
-    for (const CouplingRule* rule : coupling_rules()) {
+    for (const CouplingRule* rule : rules) {
       for (const Traffic& a : traffic) {
         for (const Traffic& b : traffic) {
-          EXPECT_EQ(rule->are_coupled(a, b), rule->are_coupled(b, a)) << rule->name;
+          EXPECT_EQ(are_coupled(a, b, *rule), are_coupled(b, a, *rule)) << rule->name;
           if (!intersects(a.reachable_area_m, b.reachable_area_m)) continue;
-          EXPECT_TRUE(rule->are_coupled(a, b)) << rule->name;
+          EXPECT_TRUE(are_coupled(a, b, *rule)) << rule->name;
           ++coupled;
         }
       }

@@ -12,6 +12,12 @@
 #include <vector>
 
 #include "planner/common/text_file.hpp"
+#include "planner/controller/coordination_rules.hpp"
+#include "planner/coordination/coupling_rule.hpp"
+#include "planner/coordination/priorities/strategies.hpp"
+#include "planner/right_of_way/grant_order.hpp"
+#include "planner/road/reference_points.hpp"
+#include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/scenario_values.hpp"
 #include "tests/support/folders.hpp"
 
@@ -105,6 +111,31 @@ TEST(ScenarioSchema, HasTheKeysOfTheReader) {
     for (const std::string& scenario : place.scenarios) keys.merge(keys_of_reader(scenario));
     EXPECT_EQ(keys_in_schema(place.name), keys) << place.name;
   }
+}
+
+void expect_names(const nlohmann::json& place, const std::vector<std::string>& names) {
+  EXPECT_THAT(place.at("enum").get<std::vector<std::string>>(),
+              testing::UnorderedElementsAreArray(names));
+}
+
+TEST(ScenarioSchema, HasTheNamesOfTheRegistries) {
+  const nlohmann::json& keys = schema().at("properties");
+  expect_names(schema().at("definitions").at("strategy"), coordination::priority_strategy_names());
+  expect_names(keys.at("coupling"), coordination::coupling_rule_names());
+  expect_names(keys.at("right_of_way_order"), right_of_way::grant_order_names());
+  std::vector<std::string> engine_names;
+  for (const NamedEngine& one : engines()) engine_names.emplace_back(one.name);
+  expect_names(keys.at("engine"), engine_names);
+  std::vector<std::string> coordination_names;
+  for (const auto& [name, rule] : controller::coordination_rules()) {
+    coordination_names.push_back(name);
+  }
+  expect_names(keys.at("coordination"), coordination_names);
+  std::vector<std::string> reference_names;
+  for (const road::NamedReferenceRule& one : road::reference_rules()) {
+    reference_names.emplace_back(one.name);
+  }
+  expect_names(keys.at("reference_rule"), reference_names);
 }
 
 // A definition that is not compared could have any keys.
