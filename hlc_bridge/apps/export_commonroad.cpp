@@ -2,7 +2,9 @@
 // every 10 ms.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -71,7 +73,9 @@ std::string export_run(const std::filesystem::path& run,
   }
   const hlc::scenario::Scenario scenario =
       hlc::scenario::read_scenario(choices.file.empty() ? hlc::record::kept_choices(run) : choices);
-  hlc::result::check_run(facts, hlc::result::describe(scenario, std::nullopt));
+  hlc::result::RunDescription description = hlc::result::describe(scenario, std::nullopt);
+  hlc::result::check_run(facts, description);
+  hlc::record::add_obstacles(hlc::record::kept_forks(run), description);
   const hlc::result::Drives drives = hlc::record::read_drives(run, facts.vehicle_ids);
   const std::vector<hlc::result::StepRecord> rows =
       hlc::result::step_records(reports, drives, facts);
@@ -80,11 +84,14 @@ std::string export_run(const std::filesystem::path& run,
     vehicles.push_back(
         exported(hlc::VehicleId{id}, rows, drives, facts, scenario.subgraph->automaton()));
   }
+  std::vector<hlc::ConvexPolygon> obstacles_m;
+  std::ranges::transform(description.obstacles, std::back_inserter(obstacles_m),
+                         &hlc::result::Obstacle::area_m);
   const hlc::road::LaneletMap map = scenario.map_file
                                         ? hlc::road::read_lanelet_map(*scenario.map_file)
-                                        : hlc::record::open_ground(vehicles);
+                                        : hlc::record::open_ground(vehicles, obstacles_m);
   return hlc::record::commonroad_xml(map, scenario.subgraph->automaton().vehicle, vehicles,
-                                     1e-9 * static_cast<double>(kInterval));
+                                     obstacles_m, 1e-9 * static_cast<double>(kInterval));
 }
 
 }  // namespace

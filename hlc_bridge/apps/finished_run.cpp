@@ -41,9 +41,7 @@ view::FinishedRun finished_run(record::RunFolder read, std::string fault) {
   if (read.scenario.map_file) run.map = road::read_lanelet_map(*read.scenario.map_file);
   run.log = record::read_logs(read.folder / "logs", read.facts);
   run.explanations = record::read_explanations(read.folder, read.rows);
-  const std::vector<record::KeptFork> forks = record::kept_forks(read.folder);
-  run.fork = record::forks_text(forks);
-  run.obstacles = record::added_obstacles(forks);
+  run.fork = record::forks_text(record::kept_forks(read.folder));
   run.searches = record::read_search_pages(read.folder, read.rows);
   run.how_explained = read.facts.simulated_time ? kHowExplained : kNotExplained;
   run.time = read.facts.simulated_time ? "logical time" : "real time";

@@ -22,19 +22,27 @@ void add_exact(road::CommonRoadWriter& xml, const char* name, double value) {
   xml.close_inline();
 }
 
-/// The content of a state, in one line.
-void add_state(road::CommonRoadWriter& xml, const vehicle::State& state, std::size_t time,
-               Steering steering) {
+void add_place(road::CommonRoadWriter& xml, const Point& place_m) {
   xml.open_inline("position");
   xml.open_inline("point");
-  xml.number("x", state.pose.x_m);
-  xml.number("y", state.pose.y_m);
+  xml.number("x", place_m.x());
+  xml.number("y", place_m.y());
   xml.close_inline();
   xml.close_inline();
-  add_exact(xml, "orientation", wrap_angle(state.pose.heading_rad));
+}
+
+void add_time(road::CommonRoadWriter& xml, std::size_t time) {
   xml.open_inline("time");
   xml.text("exact", fmt::to_string(time));
   xml.close_inline();
+}
+
+/// The content of a state, in one line.
+void add_state(road::CommonRoadWriter& xml, const vehicle::State& state, std::size_t time,
+               Steering steering) {
+  add_place(xml, state.pose.position_m());
+  add_exact(xml, "orientation", wrap_angle(state.pose.heading_rad));
+  add_time(xml, time);
   add_exact(xml, "velocity", state.speed_mps);
   if (steering == Steering::kWritten) add_exact(xml, "steeringAngle", state.steering_rad);
 }
@@ -68,6 +76,31 @@ void add_motion(road::CommonRoadWriter& xml, int id, const Footprint& footprint,
   xml.close();
 }
 
+void add_obstacle(road::CommonRoadWriter& xml, int id, const ConvexPolygon& area_m) {
+  Point middle_m{Point::Zero()};
+  for (const Point& corner : area_m.vertices_m) middle_m += corner;
+  middle_m /= static_cast<double>(area_m.vertices_m.size());
+  xml.open("staticObstacle");
+  xml.PushAttribute("id", id);
+  xml.text("type", "unknown", false);
+  xml.open("shape");
+  xml.open_inline("polygon");
+  for (const Point& corner : area_m.vertices_m) {
+    xml.open_inline("point");
+    xml.number("x", corner.x() - middle_m.x());
+    xml.number("y", corner.y() - middle_m.y());
+    xml.close_inline();
+  }
+  xml.close_inline();
+  xml.close_inline();
+  xml.open("initialState");
+  add_place(xml, middle_m);
+  add_exact(xml, "orientation", 0.0);
+  add_time(xml, 0);
+  xml.close_inline();
+  xml.close();
+}
+
 void add_problem(road::CommonRoadWriter& xml, int id, const vehicle::VehicleParameters& vehicle,
                  const std::vector<vehicle::State>& planned) {
   const vehicle::State& start = planned.front();
@@ -98,13 +131,17 @@ void check_ids(const road::LaneletMap& map) {
 }  // namespace
 
 std::string commonroad_xml(const road::LaneletMap& map, const vehicle::VehicleParameters& vehicle,
-                           const std::vector<ExportedVehicle>& vehicles, double time_step_s) {
+                           const std::vector<ExportedVehicle>& vehicles,
+                           const std::vector<ConvexPolygon>& obstacles_m, double time_step_s) {
   check_ids(map);
   road::CommonRoadWriter xml({.benchmark_id = map.benchmark_id,
                               .author = "export_commonroad",
                               .source = "run",
                               .time_step = shortest_text(time_step_s)});
   xml.add_lanelets(map);
+  for (std::size_t i = 0; i < obstacles_m.size(); ++i) {
+    add_obstacle(xml, kObstacleIds + static_cast<int>(i) + 1, obstacles_m[i]);
+  }
   for (const ExportedVehicle& one : vehicles) {
     add_motion(xml, kPlannedIds + one.id.value, vehicle.footprint, one.planned, Steering::kWritten);
     add_motion(xml, kDrivenIds + one.id.value, vehicle.footprint, one.driven, Steering::kLeftOut);
@@ -115,7 +152,8 @@ std::string commonroad_xml(const road::LaneletMap& map, const vehicle::VehiclePa
   return xml.finish();
 }
 
-road::LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles) {
+road::LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles,
+                             const std::vector<ConvexPolygon>& obstacles_m) {
   constexpr double kBorder_m = 0.5;
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Point low_m{kFar, kFar};
@@ -127,6 +165,11 @@ road::LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles) {
         high_m = high_m.cwiseMax(state.pose.position_m());
       }
     }
+  }
+  for (const ConvexPolygon& one : obstacles_m) {
+    const Box box = bounding_box(one);
+    low_m = low_m.cwiseMin(box.min_m);
+    high_m = high_m.cwiseMax(box.max_m);
   }
   low_m -= Point{kBorder_m, kBorder_m};
   high_m += Point{kBorder_m, kBorder_m};

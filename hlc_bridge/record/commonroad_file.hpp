@@ -20,8 +20,11 @@ struct ExportedVehicle {
 inline constexpr int kProblemIds = 1'000'000;  ///< + vehicle id: planning problem
 inline constexpr int kPlannedIds = 2'000'000;  ///< + vehicle id: what was planned
 inline constexpr int kDrivenIds = 3'000'000;   ///< + vehicle id: what was driven
+/// + place in the list, from 1: an obstacle
+inline constexpr int kObstacleIds = 4'000'000;
 
-/// A run as CommonRoad 2020a: the map; per vehicle its planned and its driven motion, a dynamic
+/// A run as CommonRoad 2020a: the map; per obstacle a static one, a polygon around its initial
+/// position, the mean of its corners; per vehicle its planned and its driven motion, a dynamic
 /// obstacle each, with the vehicle's own rectangle; per vehicle a planning problem from the begin
 /// of its plan, whose goal is any state at the end. Numbers with 9 decimals, angles in (-pi, pi].
 ///
@@ -33,10 +36,12 @@ inline constexpr int kDrivenIds = 3'000'000;   ///< + vehicle id: what was drive
 [[nodiscard]] std::string commonroad_xml(const road::LaneletMap& map,
                                          const vehicle::VehicleParameters& vehicle,
                                          const std::vector<ExportedVehicle>& vehicles,
+                                         const std::vector<ConvexPolygon>& obstacles_m,
                                          double time_step_s);
 
 /// A map for a run without lanes, since the format requires one: a single lane, 0.5 m wider on all
-/// sides than the area of the vehicles' reference points.
-[[nodiscard]] road::LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles);
+/// sides than the area of the vehicles' reference points and of the obstacles.
+[[nodiscard]] road::LaneletMap open_ground(const std::vector<ExportedVehicle>& vehicles,
+                                           const std::vector<ConvexPolygon>& obstacles_m);
 
 }  // namespace hlc::record

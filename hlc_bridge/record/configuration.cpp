@@ -168,23 +168,23 @@ std::string forks_text(std::span<const KeptFork> forks) {
   return texts.empty() ? "" : fmt::format("a fork: {}", fmt::join(texts, "; "));
 }
 
-std::vector<result::AddedObstacle> added_obstacles(std::span<const KeptFork> forks) {
+void add_obstacles(std::span<const KeptFork> forks, result::RunDescription& description) {
   constexpr std::string_view kKey = "obstacle=";
-  std::vector<result::AddedObstacle> obstacles;
   for (const KeptFork& fork : forks) {
     for (const std::string& text : fork.set) {
       if (!text.starts_with(kKey)) continue;
       std::istringstream numbers(text.substr(kKey.size()));
-      result::AddedObstacle one{.from = fork.from, .pose = {}};
+      Pose middle;
+      Footprint size;
       char comma{};
-      numbers >> one.pose.x_m >> comma >> one.pose.y_m >> comma >> one.length_m >> comma >>
-          one.width_m;
+      numbers >> middle.x_m >> comma >> middle.y_m >> comma >> size.length_m >> comma >>
+          size.width_m;
       if (!numbers) continue;  // not written by a fork
-      if (!(numbers >> comma >> one.pose.heading_rad)) one.pose.heading_rad = 0.0;
-      obstacles.push_back(one);
+      if (!(numbers >> comma >> middle.heading_rad)) middle.heading_rad = 0.0;
+      description.obstacles.push_back(
+          {.name = {}, .from = fork.from, .area_m = footprint_area(size, middle)});
     }
   }
-  return obstacles;
 }
 
 bool takes_out(std::span<const KeptFork> forks, std::uint8_t vehicle) {

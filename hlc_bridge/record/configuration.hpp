@@ -58,8 +58,8 @@ struct KeptFork {
 /// "a fork: from step 40 on priorities=2; from step 60 on speed=3:0.4"; empty without forks.
 [[nodiscard]] std::string forks_text(std::span<const KeptFork> forks);
 
-/// Those of the changes `obstacle=X,Y,LENGTH,WIDTH[,HEADING]`.
-[[nodiscard]] std::vector<result::AddedObstacle> added_obstacles(std::span<const KeptFork> forks);
+/// Adds to the description the obstacles of the changes `obstacle=X,Y,LENGTH,WIDTH[,HEADING]`.
+void add_obstacles(std::span<const KeptFork> forks, result::RunDescription& description);
 
 /// Whether one of them takes the vehicle out of the run (`without=VEHICLE`).
 [[nodiscard]] bool takes_out(std::span<const KeptFork> forks, std::uint8_t vehicle);

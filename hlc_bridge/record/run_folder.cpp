@@ -36,6 +36,7 @@ RunFolder read_run_folder(const fs::path& folder, const RunChoices& given) {
   run.description = result::describe(run.scenario, run.choices.noise_seed);
   const std::vector<KeptFork> forks = kept_forks(folder);
   omit_changed_routes(forks, run.description);
+  add_obstacles(forks, run.description);
   try {
     result::check_run(run.facts, run.description);
   } catch (const std::runtime_error& error) {

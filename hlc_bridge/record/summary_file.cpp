@@ -81,6 +81,18 @@ Json vehicle_json(const result::VehicleSummary& vehicle) {
   return json;
 }
 
+Json obstacles_json(const std::vector<result::Obstacle>& obstacles) {
+  Json json = Json::array();
+  for (const result::Obstacle& one : obstacles) {
+    Json corners_m = Json::array();
+    for (const Point& corner : one.area_m.vertices_m) corners_m.push_back({corner.x(), corner.y()});
+    json.push_back({{"name", one.name.empty() ? Json(nullptr) : Json(one.name)},
+                    {"from_step", one.from},
+                    {"corners_m", std::move(corners_m)}});
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string summary_json(const result::RunSummary& summary) {
@@ -119,6 +131,8 @@ std::string summary_json(const result::RunSummary& summary) {
   json["joint_gap"] = joint_gap_json(summary.joint_gap);
   json["priorities"] = run.priorities;
   json["rounds"] = run.has_two_rounds ? "two" : "sequential";
+  json["min_obstacle_distance_m"] = or_null(summary.min_obstacle_distance_m);
+  json["obstacles"] = obstacles_json(run.obstacles);
   return json.dump(2) + "\n";
 }
 

@@ -56,6 +56,19 @@ void measure_pair(const VehicleDescription& a, const Drive& drive_a, const Vehic
   }
 }
 
+void measure_obstacle(const Footprint& footprint, const Drive& drive, const Obstacle& obstacle,
+                      Nanoseconds from, Nanoseconds to, Encounters& result) {
+  bool touched = false;
+  for (const DrivenSample& sample : drive) {
+    if (sample.t < from || sample.t > to) continue;
+    const double d_m = distance_m(footprint_area(footprint, sample.pose), obstacle.area_m);
+    result.min_distance_m = std::min(result.min_distance_m.value_or(d_m), d_m);
+    const bool touches = d_m == 0.0;
+    result.collisions += touches && !touched ? 1U : 0U;
+    touched = touches;
+  }
+}
+
 }  // namespace
 
 Encounters encounters(std::span<const VehicleDescription> vehicles, const Drives& drives,
@@ -68,6 +81,21 @@ Encounters encounters(std::span<const VehicleDescription> vehicles, const Drives
       if (drive_i != drives.end() && drive_j != drives.end()) {
         measure_pair(vehicles[i], drive_i->second, vehicles[j], drive_j->second, from, to, result);
       }
+    }
+  }
+  return result;
+}
+
+Encounters encounters_with(std::span<const Obstacle> obstacles,
+                           std::span<const VehicleDescription> vehicles, const Drives& drives,
+                           Nanoseconds step0, Nanoseconds period, Nanoseconds to) {
+  Encounters result;
+  for (const VehicleDescription& vehicle : vehicles) {
+    const auto drive = drives.find(vehicle.id.value);
+    if (drive == drives.end()) continue;
+    for (const Obstacle& one : obstacles) {
+      measure_obstacle(vehicle.footprint, drive->second, one, step0 + one.from * period, to,
+                       result);
     }
   }
   return result;

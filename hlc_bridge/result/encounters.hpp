@@ -22,6 +22,14 @@ struct Encounters {
 [[nodiscard]] Encounters encounters(std::span<const VehicleDescription> vehicles,
                                     const Drives& drives, Nanoseconds from, Nanoseconds to);
 
+/// The same of every vehicle with every obstacle, from the time on at which that one is there.
+/// @param step0   time of step 0 of the run
+/// @param period  of a step
+[[nodiscard]] Encounters encounters_with(std::span<const Obstacle> obstacles,
+                                         std::span<const VehicleDescription> vehicles,
+                                         const Drives& drives, Nanoseconds step0,
+                                         Nanoseconds period, Nanoseconds to);
+
 /// The distance of two driven footprints at one time.
 struct TimedDistance {
   Nanoseconds t{};

@@ -33,6 +33,9 @@ RunDescription describe(const scenario::Scenario& scenario,
     description.vehicles.push_back(
         {vehicle.id, vehicle.name, vehicle.path, automaton.vehicle.footprint});
   }
+  for (const scenario::ScenarioObstacle& one : scenario.obstacles) {
+    description.obstacles.push_back({.name = one.name, .area_m = one.area_m});
+  }
   return description;
 }
 

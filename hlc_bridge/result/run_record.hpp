@@ -26,6 +26,13 @@ struct VehicleDescription {
   Footprint footprint;  ///< without margin
 };
 
+/// Something that is no vehicle, and stands in the run from a step on.
+struct Obstacle {
+  std::string name;      ///< the scenario's; empty: a fork added it
+  std::uint64_t from{};  ///< step, from 0: k - k0
+  ConvexPolygon area_m;
+};
+
 /// What was driven: the scenario, as needed for the result.
 struct RunDescription {
   std::string scenario;
@@ -40,6 +47,7 @@ struct RunDescription {
   std::size_t horizon_steps{};
   double step_s{};
   std::vector<VehicleDescription> vehicles;
+  std::vector<Obstacle> obstacles;
   /// LabLimits::tracking_error_max_m of the scenario's lab; 0: not known.
   double tracking_error_max_m{};
   /// The automaton of the plans: gives the planned poses between steps. None: only those at the
@@ -84,14 +92,6 @@ struct StepRecord {
   std::optional<Pose> driven;                ///< at t(k); none if it was not recorded
   std::optional<double> driven_speed_mps{};  ///< the same
   double t_s{};                              ///< t(k) since t(k0)
-};
-
-/// A rectangle that stands in the run from a step on, as a fork added it.
-struct AddedObstacle {
-  std::uint64_t from{};  ///< step, from 0: k - k0
-  Pose pose;             ///< of its middle
-  double length_m{};     ///< along the heading
-  double width_m{};
 };
 
 /// A line that a process of the run logged.

@@ -244,11 +244,14 @@ RunSummary summarize(const RunDescription& description, const RunFacts& facts,
   summary.expanded_vertices_sum_max = largest_sum(rows, &coordination::Report::expanded);
   summary.joint_gap = coordination::joint_gap_figures(all_joint_gaps(rows));
   if (facts.first_step) {
-    const Encounters close =
-        encounters(description.vehicles, drives, *facts.first_step * facts.period,
-                   (*facts.first_step + facts.steps) * facts.period);
+    const Nanoseconds begin = *facts.first_step * facts.period;
+    const Nanoseconds end = begin + facts.steps * facts.period;
+    const Encounters close = encounters(description.vehicles, drives, begin, end);
+    const Encounters standing = encounters_with(description.obstacles, description.vehicles, drives,
+                                                begin, facts.period, end);
     summary.min_footprint_distance_m = close.min_distance_m;
-    summary.collisions = close.collisions;
+    summary.min_obstacle_distance_m = standing.min_distance_m;
+    summary.collisions = close.collisions + standing.collisions;
   }
   summary.wall_s = facts.wall_s;
   summary.realtime_factor = facts.wall_s > 0.0 ? facts.clock_s / facts.wall_s : 0.0;

@@ -58,7 +58,8 @@ struct RunSummary {
   std::size_t expanded_vertices_sum_max{};
   std::optional<coordination::JointGapFigures> joint_gap;  ///< none: no gap is known
   std::optional<double> min_footprint_distance_m;          ///< driven; none with one vehicle
-  std::size_t collisions{};
+  std::optional<double> min_obstacle_distance_m;           ///< the same; none without obstacles
+  std::size_t collisions{};                                ///< of vehicles, and with obstacles
   double wall_s{};
   double realtime_factor{};  ///< time of the run / wall_s
   /// From the list's t_now until the command (ReportRecord::response_ns), over all vehicles and

@@ -158,6 +158,10 @@ std::string summary_table(const RunSummary& summary) {
           ? fmt::format("{:.1f} mm", *summary.min_footprint_distance_m * kMillimetresPerMetre)
           : "-",
       summary.collisions);
+  if (summary.min_obstacle_distance_m) {
+    text += fmt::format("  smallest distance to an obstacle             {:.1f} mm\n",
+                        *summary.min_obstacle_distance_m * kMillimetresPerMetre);
+  }
   text += planning_lines(summary);
   text += waiting_lines(summary);
   if (summary.response_s) {

@@ -45,7 +45,6 @@ struct FinishedRun {
   std::vector<result::LoggedLine> log;
   std::vector<result::Explanation> explanations;
   std::vector<result::SearchPage> searches;
-  std::vector<result::AddedObstacle> obstacles;
   std::string fork;      ///< what was changed in it, as text; empty: nothing
   std::string time;      ///< kind of time, as text: "logical time"
   std::string revision;  ///< of the programs

@@ -75,15 +75,15 @@ std::string faults(const FinishedRun& run) {
   return fmt::format("{}", fmt::join(words, "; "));
 }
 
-Json obstacles_json(const FinishedRun& run) {
+Json obstacles_json(const result::RunDescription& description) {
   Json json = Json::array();
-  for (const result::AddedObstacle& one : run.obstacles) {
-    json.push_back({{"x", one.pose.x_m},
-                    {"y", one.pose.y_m},
-                    {"yaw", one.pose.heading_rad},
-                    {"length_m", one.length_m},
-                    {"width_m", one.width_m},
-                    {"from_s", static_cast<double>(one.from) * run.description.step_s}});
+  for (const result::Obstacle& one : description.obstacles) {
+    Json points = Json::array();
+    for (const Point& corner : one.area_m.vertices_m) {
+      points.push_back({corner.x(), corner.y()});
+    }
+    json.push_back({{"points", std::move(points)},
+                    {"from_s", static_cast<double>(one.from) * description.step_s}});
   }
   return json;
 }
@@ -128,7 +128,7 @@ Json run_message(const FinishedRun& run) {
             {"fault", faults(run)},
             {"why", run.how_explained},
             {"words", page_words()},
-            {"obstacles", obstacles_json(run)},
+            {"obstacles", obstacles_json(description)},
             {"step_s", description.step_s},
             {"stuck_after_s", coordination::kStuckAfter_s},
             {"tables", column_tables()},

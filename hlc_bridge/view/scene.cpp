@@ -25,6 +25,7 @@ struct Rgb {
 };
 
 constexpr Rgb kBound{0.5, 0.5, 0.5};
+constexpr Rgb kObstacle{0.2, 0.2, 0.2};
 /// Of the vehicles, those of Okabe and Ito as in page/page.css.
 constexpr std::array<Rgb, kNumColours> kCars{{{0.835, 0.369, 0.0},
                                               {0.0, 0.447, 0.698},
@@ -112,7 +113,13 @@ Json Scene::map(Nanoseconds time) const {
       }
     }
   }
+  Json obstacles = entity_json("obstacles", time);
+  for (const result::Obstacle& one : run_->description.obstacles) {
+    obstacles["lines"].push_back(
+        lines_json(kLineLoop, one.area_m.vertices_m, kPlan_m, 0.02, color_json(kObstacle, 1.0)));
+  }
   Json entities = Json::array({std::move(lanes)});
+  if (!obstacles["lines"].empty()) entities.push_back(std::move(obstacles));
   for (const result::VehicleDescription* vehicle : vehicles_) {
     if (!vehicle->route) continue;
     Json route = entity_json(fmt::format("route {}", vehicle->id.value), time);

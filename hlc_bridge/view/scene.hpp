@@ -23,7 +23,8 @@ class Scene {
     return vehicles_;
   }
 
-  /// Bounds of the lanes, and the routes of the vehicles: all entities.
+  /// Bounds of the lanes, outlines of the obstacles (also of those that a fork adds later), and the
+  /// routes of the vehicles: all entities.
   [[nodiscard]] Json map(Nanoseconds time) const;
   /// Footprint and number.
   [[nodiscard]] Json car(const result::VehicleDescription& vehicle, const Pose& pose,

@@ -79,13 +79,16 @@ void print(const Tally& tally, const hlc::scenario::ScenarioVehicle& vehicle, do
 }
 
 /// True if the plan of this step would be different without the other vehicles.
+/// @param standing_m  obstacles that are no vehicles
 bool others_changed_the_plan(const hlc::controller::Controller& controller,
+                             const std::vector<hlc::ConvexPolygon>& standing_m,
                              hlc::search::SearchEngine& alone,
                              const hlc::coordination::Report& report) {
   if (controller.problems().empty() || report.status != hlc::coordination::StepStatus::kPlanned)
     return false;
   hlc::search::HorizonProblem problem = controller.problems().back().problem;
   problem.obstacles_m.clear();
+  if (!standing_m.empty()) problem.obstacles_m.assign(problem.horizon_steps(), standing_m);
   return alone.search(problem).cost < report.cost_m2 - 1e-9;
 }
 
@@ -130,6 +133,9 @@ int run(const Choices& choices) {
   const hlc::automaton::ReachableSets reachable(*scenario.subgraph, scenario.horizon_steps);
   const auto alone =
       hlc::search::make_search_engine(*scenario.subgraph, reachable, scenario.search);
+  std::vector<hlc::ConvexPolygon> standing_m;
+  std::ranges::transform(scenario.obstacles, std::back_inserter(standing_m),
+                         &hlc::scenario::ScenarioObstacle::area_m);
   std::vector<hlc::coordination::JointGap> gaps;
   std::chrono::steady_clock::duration wall{};
   for (std::size_t i = 0; i < scenario.steps; ++i) {
@@ -142,7 +148,7 @@ int run(const Choices& choices) {
       rollout.controllers()[j]->note_bound(report);
       Tally& tally = tallies[report.vehicle];
       add(tally, report, step_s);
-      if (others_changed_the_plan(*rollout.controllers()[j], *alone, report)) ++tally.changed;
+      if (others_changed_the_plan(*rollout.controllers()[j], standing_m, *alone, report)) ++tally.changed;
     }
     std::ranges::copy(gaps_of(reports), std::back_inserter(gaps));
   }

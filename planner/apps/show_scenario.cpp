@@ -37,6 +37,11 @@ void print_table(const hlc::scenario::Scenario& scenario) {
                   zone.max_y_m);
     }
   }
+  for (const hlc::scenario::ScenarioObstacle& one : scenario.obstacles) {
+    const hlc::Box box = hlc::bounding_box(one.area_m);
+    std::printf("obstacle   %s, x %.3f ... %.3f m, y %.3f ... %.3f m\n", one.name.c_str(),
+                box.min_m.x(), box.max_m.x(), box.min_m.y(), box.max_m.y());
+  }
   std::printf("%4s  %-10s %9s %9s %9s %11s\n", "id", "name", "path [m]", "start [m]", "x [m]",
               "y [m]");
   for (const hlc::scenario::ScenarioVehicle& vehicle : scenario.vehicles) {

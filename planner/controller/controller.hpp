@@ -93,12 +93,12 @@ class Controller {
   void change_route(road::DrivableRoute next);
 
   /// From the next step on something that is no vehicle stands there for good: no new plan meets
-  /// it, and with right of way no authority reaches into it. All controllers of a run need the same
-  /// ones. Not in the middle of a step.
+  /// it, and with right of way no authority reaches into it. Part of the `planning_basis`: all
+  /// controllers of a run need the same ones in the same order. Not in the middle of a step.
   void add_obstacle(const ConvexPolygon& area_m) { standing_m_.push_back(area_m); }
+  void take_obstacles_of(const Controller& one) { standing_m_ = one.standing_m_; }  ///< instead
   [[nodiscard]] bool has_obstacles() const { return !standing_m_.empty(); }
-  /// Whether the vehicle will meet the area if no other plan comes into force. Not in the middle of
-  /// a step. @pre a plan is in force
+  /// Whether the plan in force meets the area. Not in the middle of a step. @pre there is one
   [[nodiscard]] bool will_meet(const ConvexPolygon& area_m) const;
 
   /// Plans on another subgraph from the next step on, of the same automaton or of one that differs

@@ -30,6 +30,7 @@ Controller* JointPlanning::replica_of(VehicleId vehicle, const Controller& own) 
   if (replica && replica->options().strategies != rules) {
     replica->coordinate_by(rules.priorities, rules.coordination);
   }
+  if (replica) replica->take_obstacles_of(own);  // a fork may have added some
   return replica.get();
 }
 

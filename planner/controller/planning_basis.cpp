@@ -152,6 +152,12 @@ std::uint64_t digest_of(std::span<const road::DrivableRoute> routes) {
   return hash.value();
 }
 
+std::uint64_t digest_of(std::span<const ConvexPolygon> areas_m) {
+  WordHash hash;
+  for (const ConvexPolygon& area_m : areas_m) add(hash, area_m);
+  return hash.value();
+}
+
 std::uint64_t digest_of(const ControllerOptions& options) {
   WordHash hash;
   hash.add(std::uint64_t{options.horizon_steps});

@@ -19,5 +19,7 @@ namespace hlc::controller {
 /// Of the rules by which a controller plans and coordinates, without its vehicle. A user's own
 /// function counts as any other one of its kind.
 [[nodiscard]] std::uint64_t digest_of(const ControllerOptions& options);
+/// Of areas in their order.
+[[nodiscard]] std::uint64_t digest_of(std::span<const ConvexPolygon> areas_m);
 
 }  // namespace hlc::controller

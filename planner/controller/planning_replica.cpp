@@ -17,6 +17,7 @@ std::uint64_t Controller::planning_basis() const {
   hash.add(digest_of(options_));
   hash.add(prepared_subgraph().digest);
   hash.add(routes_digest_);
+  if (has_obstacles()) hash.add(digest_of(standing_m_));
   return hash.value();
 }
 
@@ -38,6 +39,7 @@ std::optional<coordination::PlanningInput> Controller::planning_input() const {
 bool Controller::resume(const coordination::Traffic& traffic, const Controller& receiver) {
   if (!traffic.planning || !is_well_formed(*traffic.planning, traffic.step)) return false;
   const coordination::PlanningInput& input = *traffic.planning;
+  take_obstacles_of(receiver);  // part of the basis
   const auto& automaton = subgraph().shared_automaton();
   if (input.basis != planning_basis() || input.route >= routes().size()) return false;
   const bool has_authority = authority_ && traffic.claim && receiver.authority_;
@@ -61,7 +63,6 @@ bool Controller::resume(const coordination::Traffic& traffic, const Controller& 
   drivable_area_.resume(input.area, route());
   neighbours_ = receiver.neighbours_.in_place_of(options_.vehicle, receiver.step_.traffic);
   if (authority_) authority_->resume(*traffic.claim, options_.vehicle, *receiver.authority_);
-  standing_m_ = receiver.standing_m_;
   take_coupling(receiver.coupling(), receiver.plans_before());
   return true;
 }

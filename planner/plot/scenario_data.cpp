@@ -56,7 +56,12 @@ Json scenario_data(const scenario::Scenario& scenario) {
               {"lanelets", lanelets_of(scenario)},
               {"footprint", {{"length_m", footprint.length_m}, {"width_m", footprint.width_m}}},
               {"vehicles", Json::array()},
-              {"zones", zones_of(scenario)}};
+              {"zones", zones_of(scenario)},
+              {"obstacles", Json::array()}};
+  for (const scenario::ScenarioObstacle& one : scenario.obstacles) {
+    places["obstacles"].push_back(
+        {{"name", one.name}, {"corners_m", json_points(one.area_m.vertices_m)}});
+  }
   for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     places["vehicles"].push_back(vehicle_of(scenario, vehicle));
   }

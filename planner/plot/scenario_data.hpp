@@ -13,7 +13,8 @@ namespace hlc::plot {
 ///      "footprint": {"length_m", "width_m"},                         without margin
 ///      "vehicles": [{"id", "name", "start": {"x_m", "y_m", "yaw_rad"}, "start_s_m",
 ///                    "path": {"is_closed", "length_m", "points_m"}}],   by priority
-///      "zones": {policy: [{"min_x_m", "max_x_m", "min_y_m", "max_y_m", "max_speed_mps"}]}}
+///      "zones": {policy: [{"min_x_m", "max_x_m", "min_y_m", "max_y_m", "max_speed_mps"}]},
+///      "obstacles": [{"name", "corners_m": [[x, y], ...]}]}
 ///
 /// `start` is the measured pose (scenario::measured_start). `zones` has the policies that have any.
 /// @throws std::runtime_error as read_lanelet_map

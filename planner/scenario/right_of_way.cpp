@@ -30,13 +30,34 @@ bool has_refuge(const right_of_way::ConflictMap& map, std::size_t route) {
 }
 
 /// A car on a route without a refuge would have to be granted all of it at once.
-void demand_refuges(const Scenario& scenario) {
+void demand_refuge(const Scenario& scenario, std::uint32_t route, const std::string& whose) {
+  if (has_refuge(*scenario.conflicts, route)) return;
+  throw std::invalid_argument(
+      fmt::format("{}: right_of_way: the route of {} must have a place where a car may wait; all "
+                  "of it crosses or meets other routes",
+                  scenario.file.string(), whose));
+}
+
+/// No authority reaches past an obstacle in a cell of the route: its vehicles would stand before it
+/// forever.
+void demand_clear_road(const Scenario& scenario, std::uint32_t route, const std::string& whose) {
+  const right_of_way::ConflictMap& map = *scenario.conflicts;
+  for (std::size_t cell = 0; cell < map.num_cells(route); ++cell) {
+    for (const ScenarioObstacle& one : scenario.obstacles) {
+      if (!intersects(map.area_m(route, cell), one.area_m)) continue;
+      const Point place_m = map.place_m(route, cell);
+      throw std::invalid_argument(
+          fmt::format("{}: obstacles: with right_of_way, {} must be beside the route of {}: nobody "
+                      "would be granted the road past it, at ({:.3f}, {:.3f})",
+                      scenario.file.string(), one.name, whose, place_m.x(), place_m.y()));
+    }
+  }
+}
+
+void check_routes(const Scenario& scenario) {
   const auto demand = [&](std::uint32_t route, const std::string& whose) {
-    if (has_refuge(*scenario.conflicts, route)) return;
-    throw std::invalid_argument(
-        fmt::format("{}: right_of_way: the route of {} must have a place where a car may wait; all "
-                    "of it crosses or meets other routes",
-                    scenario.file.string(), whose));
+    demand_refuge(scenario, route, whose);
+    demand_clear_road(scenario, route, whose);
   };
   for (const ScenarioVehicle& vehicle : scenario.vehicles) {
     demand(vehicle.route_number,
@@ -67,7 +88,7 @@ void relate_routes(Scenario& scenario) {
   scenario.conflicts = std::make_shared<const right_of_way::ConflictMap>(
       routes, parameters,
       scenario.random_routes_on ? right_of_way::kTours : right_of_way::ConflictRules{});
-  demand_refuges(scenario);
+  check_routes(scenario);
 }
 
 }  // namespace hlc::scenario

@@ -98,7 +98,7 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
   }
   controller::ControllerFactory others;
   if (scenario.rounds == controller::Rounds::kTwo) others = others_of(scenario, on);
-  return std::make_unique<controller::Controller>(
+  auto controller = std::make_unique<controller::Controller>(
       controller::ControllerOptions{.vehicle = id,
                                     .horizon_steps = scenario.horizon_steps,
                                     .reference_speed_mps = scenario.reference_speed_mps,
@@ -111,6 +111,8 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                                     .lab = scenario.lab,
                                     .others = std::move(others)},
       std::move(on), std::move(routes));
+  for (const ScenarioObstacle& one : scenario.obstacles) controller->add_obstacle(one.area_m);
+  return controller;
 }
 
 Pose measured_start(const Scenario& scenario, const ScenarioVehicle& vehicle) {

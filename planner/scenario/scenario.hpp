@@ -32,6 +32,12 @@ struct ScenarioVehicle {
   std::uint32_t route_number{};
 };
 
+/// Something that is no vehicle, and stands for good.
+struct ScenarioObstacle {
+  std::string name;
+  ConvexPolygon area_m;
+};
+
 /// A run: its vehicles and routes, automaton and rules.
 struct Scenario {
   std::string name;
@@ -56,6 +62,7 @@ struct Scenario {
   policy::ReconfigurationSettings reconfiguration;
   std::shared_ptr<const automaton::Subgraph> subgraph;
   std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
+  std::vector<ScenarioObstacle> obstacles;
   /// For vehicles that the scenario does not name: its routes by name, or on a circle and with
   /// random routes those of its cars.
   std::vector<road::DrivableRoute> routes;
@@ -95,7 +102,8 @@ inline constexpr std::size_t kMaxCarsOnCircle = 20;
 /// (scenario_assembly.hpp). The automaton is read from a file of build_automaton, or from a
 /// configuration, of which the part needed by the chosen subgraph is built, or with
 /// `reconfigurable: true` or `policies` all (maneuvers are solved). Checks that the scenario can be
-/// driven: routes exist and close, start poses do not overlap, standstill is within the horizon,
+/// driven: routes exist and close, start poses overlap neither each other nor an obstacle (with
+/// right of way, no route does either), standstill is within the horizon,
 /// and the lab's vehicles, if it names a lab, can follow the automaton.
 /// @throws std::invalid_argument, std::runtime_error with one line: file, place, value, bound
 [[nodiscard]] Scenario read_scenario(const ScenarioChoices& choices);
@@ -111,8 +119,8 @@ inline constexpr std::size_t kMaxCarsOnCircle = 20;
 /// @throws std::invalid_argument if the scenario has no such vehicle
 [[nodiscard]] const ScenarioVehicle& vehicle_of(const Scenario& scenario, VehicleId id);
 
-/// The controller of one vehicle. A vehicle that the scenario names takes its own route; any other
-/// takes the scenario's route that fits best at its pose.
+/// The controller of one vehicle, with the scenario's obstacles. A vehicle that the scenario names
+/// takes its own route; any other takes the scenario's route that fits best at its pose.
 [[nodiscard]] std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario,
                                                                       VehicleId id);
 /// The same on the scenario's subgraph, prepared once for many controllers.

@@ -164,6 +164,9 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   check_standstill_is_near(values.node, scenario);
   check_lab(scenario);
   choose_policy(values, choices, scenario);
+  for (const ObstacleValues& one : values.obstacles) {
+    scenario.obstacles.push_back({.name = one.name, .area_m = one.area_m});
+  }
   add_vehicles(values, inputs, choices, scenario);
   check_zones(values.node, scenario);
   std::ranges::sort(scenario.vehicles, {}, &ScenarioVehicle::id);

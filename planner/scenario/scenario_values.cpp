@@ -140,6 +140,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .is_reconfigurable = node.optional<bool>("reconfigurable", false),
       .policies = read_policies(node),
       .policy = node.optional<std::string>("policy", policy::kNoPolicy),
+      .obstacles = read_obstacles(node),
       .node = node};
   if (node.has("lab")) values.lab_file = beside(path, node.required<std::string>("lab"));
   if (node.has("circle")) {

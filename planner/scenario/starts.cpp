@@ -52,6 +52,13 @@ std::vector<std::size_t> drawn(const std::vector<ConvexPolygon>& areas, std::siz
   return taken;
 }
 
+/// Whether a footprint at the start overlaps one.
+bool is_in_obstacle(const Scenario& scenario, const ConvexPolygon& start_area_m) {
+  return std::ranges::any_of(scenario.obstacles, [&](const ScenarioObstacle& one) {
+    return intersects(start_area_m, one.area_m);
+  });
+}
+
 }  // namespace
 
 std::vector<road::DrivableRoute> routes_of(std::span<const ScenarioVehicle> vehicles) {
@@ -80,12 +87,17 @@ std::vector<ScenarioVehicle> draw_cars(const Scenario& scenario, std::size_t car
                                        std::uint64_t seed) {
   std::vector<const ScenarioVehicle*> candidates;
   std::vector<ConvexPolygon> areas;
-  for (const auto* list : {&scenario.candidates, &scenario.further_candidates}) {
-    for (const ScenarioVehicle& one : *list) {
+  const auto add_all = [&](const std::vector<ScenarioVehicle>& list) {
+    for (const ScenarioVehicle& one : list) {
+      ConvexPolygon area_m = start_area(scenario, one);
+      if (is_in_obstacle(scenario, area_m)) continue;
       candidates.push_back(&one);
-      areas.push_back(start_area(scenario, one));
+      areas.push_back(std::move(area_m));
     }
-  }
+    return areas.size();
+  };
+  const std::size_t num_first = add_all(scenario.candidates);
+  add_all(scenario.further_candidates);
   std::mt19937_64 random(seed);
   std::vector<std::size_t> best;
   const auto draw_from = [&](std::size_t first, std::size_t end) {
@@ -95,8 +107,8 @@ std::vector<ScenarioVehicle> draw_cars(const Scenario& scenario, std::size_t car
       if (taken.size() > best.size()) best = std::move(taken);
     }
   };
-  draw_from(0, scenario.candidates.size());
-  draw_from(scenario.candidates.size(), areas.size());
+  draw_from(0, num_first);
+  draw_from(num_first, areas.size());
   std::vector<ScenarioVehicle> vehicles;
   for (const std::size_t i : best) {
     ScenarioVehicle vehicle = *candidates[i];
@@ -106,6 +118,16 @@ std::vector<ScenarioVehicle> draw_cars(const Scenario& scenario, std::size_t car
                            : std::move(vehicle));
   }
   return vehicles;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> start_in_obstacle(const Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+    const ConvexPolygon area_m = start_area(scenario, scenario.vehicles[i]);
+    for (std::size_t j = 0; j < scenario.obstacles.size(); ++j) {
+      if (intersects(area_m, scenario.obstacles[j].area_m)) return std::pair{i, j};
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> overlapping_starts(const Scenario& scenario) {
@@ -159,7 +181,7 @@ Scenario displaced(const Scenario& scenario, std::uint64_t seed) {
       starts_s_m.push_back(uniform(random) * vehicle.path.length_m());
     }
     Scenario candidate = with_starts(scenario, starts_s_m);
-    if (!overlapping_starts(candidate)) return candidate;
+    if (!overlapping_starts(candidate) && !start_in_obstacle(candidate)) return candidate;
   }
   throw too_many(scenario);
 }

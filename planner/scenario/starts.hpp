@@ -24,6 +24,11 @@ namespace hlc::scenario {
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> overlapping_starts(
     const Scenario& scenario);
 
+/// Index of a vehicle whose footprint with margin overlaps an obstacle at the start, and of the
+/// obstacle; nothing if there is none.
+[[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> start_in_obstacle(
+    const Scenario& scenario);
+
 /// The scenario with vehicle i standing at arc length starts_s_m[i] of its path, heading along it.
 /// Does not check for overlaps.
 /// @pre one arc length per vehicle
@@ -31,7 +36,8 @@ namespace hlc::scenario {
 
 /// Draws cars from scenario.candidates, none twice, with ids 1, 2, ..., at the candidates' starts,
 /// and where these are too few the others from scenario.further_candidates. A candidate whose
-/// footprint with margin overlaps with that of a car drawn before is drawn again.
+/// footprint with margin overlaps with that of a car drawn before is drawn again, one that overlaps
+/// an obstacle is left out.
 /// With random routes each car gets its own (random_tour.hpp), of the same seed. The same on every
 /// machine.
 /// @return `cars` of them, or fewer, as many as could be placed in the best of a thousand draws
@@ -40,7 +46,7 @@ namespace hlc::scenario {
                                                      std::uint64_t seed);
 
 /// The scenario with every vehicle at a random place on its path, uniform in arc length, without
-/// overlaps; if it has candidates, with as many cars drawn from them again. The same seed gives the
+/// overlaps, also of obstacles; if it has candidates, with as many cars drawn from them again. The same seed gives the
 /// same starts.
 /// @throws std::invalid_argument if a path is not closed, or if a thousand draws all overlap
 [[nodiscard]] Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed);

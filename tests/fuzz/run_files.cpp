@@ -126,7 +126,8 @@ std::vector<Target> run_file_targets() {
           "forks", kRun / "forks.yaml",
           [folder_of](const fs::path& file) {
             const auto forks = record::kept_forks(folder_of(file));
-            static_cast<void>(record::added_obstacles(forks));
+            result::RunDescription description;
+            record::add_obstacles(forks, description);
             static_cast<void>(record::forks_text(forks));
           },
           record::forks_yaml({{.from = 3, .set = {"obstacle=1,2,3,4", "without=2"}}})),

@@ -59,6 +59,20 @@ TEST_F(Footprints, ThatTouchAreToldOnce) {
   EXPECT_EQ(violations_.size(), 1U);
 }
 
+TEST(FootprintsAmongObstacles, ThatTouchOneAreReportedOnce) {
+  FootprintsCheck check({.length_m = 0.2, .width_m = 0.1}, {{std::uint8_t{1}, Pose{}}},
+                        {square_at(1.0)});
+  Violations violations;
+  check.driven(1, 5, {.x_m = 0.2});
+  check.driven(1, 6, {.x_m = 1.0}, true);
+  check.check(0, violations);
+  EXPECT_TRUE(violations.empty()) << "nobody can be held responsible";
+  for (std::uint64_t tick = 7; tick < 10; ++tick) check.driven(1, tick, {.x_m = 1.0});
+  check.check(0, violations);
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_NE(violations.front().text.find("vehicle 1 touches an obstacle"), std::string::npos);
+}
+
 TEST_F(Footprints, OfWhoHasNotBegunOrHasEndedStand) {
   check_.driven(1, 5, {.x_m = 0.5});
   check_.check(0, violations_);

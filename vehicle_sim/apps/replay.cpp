@@ -103,6 +103,7 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
   hlc::result::RunDescription description = recorded.description;
   const hlc::record::KeptFork fork{.from = *choices.from, .set = choices.set};
   hlc::record::omit_changed_routes({&fork, 1}, description);
+  hlc::record::add_obstacles({&fork, 1}, description);
   hlc::result::RunSummary summary =
       hlc::result::summarize(description, experiment.facts, rows, experiment.drives);
   summary.revision = hlc::program_revision();

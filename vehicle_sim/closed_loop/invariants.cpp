@@ -26,9 +26,11 @@ bool are_free_for_good(const coordination::OccupiedAreas& a, const coordination:
 // --- footprints ---------------------------------------------------------------------------------
 
 FootprintsCheck::FootprintsCheck(const Footprint& footprint,
-                                 const std::map<std::uint8_t, Pose>& starts)
+                                 const std::map<std::uint8_t, Pose>& starts,
+                                 std::vector<ConvexPolygon> obstacles_m)
     : footprint_(footprint),
-      circumradius_m_(0.5 * std::hypot(footprint.length_m, footprint.width_m)) {
+      circumradius_m_(0.5 * std::hypot(footprint.length_m, footprint.width_m)),
+      obstacles_m_(std::move(obstacles_m)) {
   for (const auto& [vehicle, start] : starts) cars_[vehicle].start = start;
 }
 
@@ -73,6 +75,12 @@ void FootprintsCheck::check(Nanoseconds at, Violations& violations) {
   const std::uint64_t end = all_driven_until();
   for (; *next_ < end; ++*next_) {
     for (auto a = cars_.begin(); a != cars_.end(); ++a) {
+      if (touches_obstacle_first_time(*a, *next_)) {
+        violations.push_back({.at = at,
+                              .check = "footprints",
+                              .text = "vehicle " + std::to_string(a->first) +
+                                      " touches an obstacle in tick " + std::to_string(*next_)});
+      }
       for (auto b = std::next(a); b != cars_.end(); ++b) {
         if (!touches_first_time(*a, *b, *next_)) continue;
         violations.push_back({.at = at,
@@ -96,6 +104,15 @@ bool FootprintsCheck::touches_first_time(const Cars::value_type& a, const Cars::
   const bool is_exempt = a.second.is_exempt(tick) || b.second.is_exempt(tick);
   if (!is_exempt) smallest_distance_m_ = std::min(smallest_distance_m_, gap_m);
   return gap_m <= 0.0 && touched_.insert({a.first, b.first}).second && !is_exempt;
+}
+
+bool FootprintsCheck::touches_obstacle_first_time(const Cars::value_type& one, std::uint64_t tick) {
+  const ConvexPolygon area_m = footprint_area(footprint_, one.second.at(tick));
+  const auto touches = [&](const ConvexPolygon& obstacle_m) {
+    return intersects(area_m, obstacle_m);
+  };
+  return !one.second.is_exempt(tick) && std::ranges::any_of(obstacles_m_, touches) &&
+         touched_obstacle_.insert(one.first).second;
 }
 
 // --- plans --------------------------------------------------------------------------------------

@@ -21,13 +21,14 @@
 /// Invariants of a run under any faults, each as a small checker that is notified of events.
 namespace hlc::closed_loop {
 
-/// Driven footprints (without margin) never touch.
+/// Driven footprints (without margin) never touch, nor any obstacle.
 ///
 /// Poses of one instant are compared: a tick is checked once every vehicle has driven it. A vehicle
 /// that has not begun stands at its start, one that has ended stands at its last pose.
 class FootprintsCheck {
  public:
-  FootprintsCheck(const Footprint& footprint, const std::map<std::uint8_t, Pose>& starts);
+  FootprintsCheck(const Footprint& footprint, const std::map<std::uint8_t, Pose>& starts,
+                  std::vector<ConvexPolygon> obstacles_m = {});
 
   /// @param tick           number of the vehicles' tick
   /// @param is_unreachable  no controller can be held responsible for where the vehicle is
@@ -64,12 +65,15 @@ class FootprintsCheck {
   [[nodiscard]] std::uint64_t all_driven_until() const;
   [[nodiscard]] bool touches_first_time(const Cars::value_type& a, const Cars::value_type& b,
                                         std::uint64_t tick);
+  [[nodiscard]] bool touches_obstacle_first_time(const Cars::value_type& one, std::uint64_t tick);
 
   Footprint footprint_;
   double circumradius_m_;
   Cars cars_;
   std::optional<std::uint64_t> next_;  ///< next tick to check
   std::set<std::pair<std::uint8_t, std::uint8_t>> touched_;
+  std::vector<ConvexPolygon> obstacles_m_;
+  std::set<std::uint8_t> touched_obstacle_;
   double smallest_distance_m_{1e9};
 };
 

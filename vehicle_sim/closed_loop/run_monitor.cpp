@@ -1,9 +1,11 @@
 #include "vehicle_sim/closed_loop/run_monitor.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include "vehicle_sim/closed_loop/seeded_random.hpp"
@@ -27,6 +29,13 @@ std::map<std::uint8_t, Pose> starts_of(const scenario::Scenario& scenario) {
   return starts;
 }
 
+std::vector<ConvexPolygon> obstacles_of(const scenario::Scenario& scenario) {
+  std::vector<ConvexPolygon> areas_m;
+  std::ranges::transform(scenario.obstacles, std::back_inserter(areas_m),
+                         &scenario::ScenarioObstacle::area_m);
+  return areas_m;
+}
+
 std::string report_line(const coordination::Report& report) {
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), "vehicle %d, step %llu: %s, %s, at (%.3f, %.3f)",
@@ -47,7 +56,8 @@ std::string follows_line(std::uint8_t vehicle, Nanoseconds create, Nanoseconds p
 RunMonitor::RunMonitor(const scenario::Scenario& scenario, Nanoseconds calm_from,
                        const Trace& trace)
     : period_(period_of(scenario)),
-      footprints_(automaton_of(scenario).vehicle.footprint, starts_of(scenario)),
+      footprints_(automaton_of(scenario).vehicle.footprint, starts_of(scenario),
+                  obstacles_of(scenario)),
       standing_(automaton_of(scenario).vehicle.footprint,
                 automaton_of(scenario).vehicle.safety_margin_m),
       plans_(scenario.horizon_steps, &standing_),

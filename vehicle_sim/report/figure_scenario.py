@@ -44,6 +44,8 @@ def turned(place: dict) -> dict:
             x, to_x = zone["min_x_m"], zone["max_x_m"]
             zone["min_x_m"], zone["max_x_m"] = zone["min_y_m"], zone["max_y_m"]
             zone["min_y_m"], zone["max_y_m"] = -to_x, -x
+    for one in place.get("obstacles", []):
+        one["corners_m"] = turn(one["corners_m"])
     return place
 
 
@@ -87,6 +89,7 @@ def draw_map(axes: Axes, place: dict, looks: list[style.Stroke], extent: tuple, 
     """One map or one strip of a road."""
     map_axes.draw_lanes(axes, place)
     map_axes.draw_zones(axes, place)
+    map_axes.draw_obstacles(axes, place)
     map_axes.draw_lanelet_ids(axes, place, inch_per_m)
     if with_routes:
         for rank, route in enumerate(routes_of(place)):
@@ -169,6 +172,8 @@ def entries_of(place: dict, looks: list[style.Stroke], has_thumbnails: bool, pos
         entries.append(Patch(facecolor=style.LANE, edgecolor=style.LANE_BORDER, linewidth=0.4, label="lane, with id"))
     if place["zones"]:
         entries.append(Patch(facecolor="none", edgecolor=style.PURPLE, hatch="////", label="speed zone of a policy"))
+    if place.get("obstacles"):
+        entries.append(Patch(facecolor=style.MARK, edgecolor="#000000", linewidth=0.5, alpha=0.75, label="obstacle"))
     return entries
 
 

@@ -27,11 +27,12 @@ def path_points(vehicle: dict) -> np.ndarray:
 
 
 def extent_of(place: dict) -> tuple[float, float, float, float]:
-    """x from, x to, y from, y to of lanes, paths and cars' middles, with a margin for whole cars around them."""
+    """x from, x to, y from, y to of lanes, paths, obstacles and cars' middles, with a margin for whole cars around them."""
     margin = 0.75 * place["footprint"]["length_m"]
     pieces = [np.asarray(lane[side]) for lane in place["lanelets"] for side in ("left_m", "right_m")]
     pieces += [path_points(car) for car in place["vehicles"]]
     pieces += [np.array([[car["start"]["x_m"], car["start"]["y_m"]]]) for car in place["vehicles"]]
+    pieces += [np.asarray(one["corners_m"]) for one in place.get("obstacles", [])]
     points = np.vstack(pieces)
     low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
@@ -58,6 +59,17 @@ def draw_zones(axes: Axes, place: dict) -> list[float]:
         axes.text(x, to_y, rf" $v \leq {limit:g}$ m/s", color=style.PURPLE, fontsize=6.5, va="bottom",
                   path_effects=HALO, zorder=6)
     return sorted(seen.values())
+
+
+def draw_obstacles(axes: Axes, place: dict) -> bool:
+    """What stands in the way for good, with its name. Returns whether there is any."""
+    obstacles = place.get("obstacles", [])
+    for one in obstacles:
+        corners = np.asarray(one["corners_m"])
+        axes.add_patch(Polygon(corners, facecolor=style.MARK, edgecolor="#000000", linewidth=0.5, alpha=0.75, zorder=3))
+        axes.text(*corners.mean(axis=0), one["name"], fontsize=5, ha="center", va="center", zorder=3.6, clip_on=True,
+                  path_effects=HALO)
+    return bool(obstacles)
 
 
 def draw_car(axes: Axes, place: dict, car: dict, colour: str) -> None:

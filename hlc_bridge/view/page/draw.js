@@ -149,7 +149,7 @@ export class MapView {
     for (const bound of this.bounds) this.stroke(bound, "bound", 1);
     if (shown.layers.zones) this.stroke(this.zones, "muted", 0.1 * this.scale, [], 0.3);
     for (const one of run.about.obstacles) {
-      if (shown.t >= one.from_s) this.fill(this.rectangle(one, one), "alarm", 0.7);
+      if (shown.t >= one.from_s) this.fill(path_through(one.points, true), "alarm", 0.7);
     }
     for (const vehicle of run.vehicles) this.draw_paths(vehicle, shown);
     for (const vehicle of run.vehicles) this.draw_car(vehicle, shown);

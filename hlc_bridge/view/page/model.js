@@ -211,7 +211,7 @@ export class Run {
 
   /// Box of all there is to see.
   box() {
-    let points = this.lanes.flat(2).concat(this.about.obstacles.map(({ x, y }) => [x, y]));
+    let points = this.lanes.flat(2).concat(this.about.obstacles.flatMap((one) => one.points));
     for (const vehicle of this.vehicles) {
       const planned = vehicle.steps.filter(({ label }) => label).map(({ pose }) => [pose.x, pose.y]);
       points = points.concat(vehicle.route, this.driven_path(vehicle, 0, Infinity), planned);

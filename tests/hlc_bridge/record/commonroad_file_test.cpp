@@ -54,7 +54,7 @@ std::string text_at(const XMLElement* element, std::initializer_list<const char*
 }
 
 TEST(CommonRoadFile, HoldsTheMapMotionsAndProblemsWithIdsOfTheirOwn) {
-  const std::string xml = commonroad_xml(small_map(5), {}, two_vehicles(), 0.01);
+  const std::string xml = commonroad_xml(small_map(5), {}, two_vehicles(), {}, 0.01);
   EXPECT_EQ(road::parse_lanelet_map(xml, "xml"), small_map(5));
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(xml.c_str()), tinyxml2::XML_SUCCESS);
@@ -73,8 +73,26 @@ TEST(CommonRoadFile, HoldsTheMapMotionsAndProblemsWithIdsOfTheirOwn) {
   EXPECT_EQ(kinds.count("planningProblem"), 2U);
 }
 
+TEST(CommonRoadFile, ObstaclesStandAroundTheMeanOfTheirCorners) {
+  const ConvexPolygon area_m{{{1.0, 2.0}, {3.0, 2.0}, {2.0, 5.0}}};
+  const std::string xml = commonroad_xml(small_map(5), {}, two_vehicles(), {area_m, area_m}, 0.01);
+  tinyxml2::XMLDocument document;
+  ASSERT_EQ(document.Parse(xml.c_str()), tinyxml2::XML_SUCCESS);
+  const XMLElement* first = document.RootElement()->FirstChildElement("staticObstacle");
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first->IntAttribute("id"), kObstacleIds + 1);
+  EXPECT_EQ(text_at(first, {"initialState", "position", "point", "x"}), "2.000000000");
+  EXPECT_EQ(text_at(first, {"initialState", "position", "point", "y"}), "3.000000000");
+  EXPECT_EQ(text_at(first, {"initialState", "time", "exact"}), "0");
+  EXPECT_EQ(text_at(first, {"shape", "polygon", "point", "x"}), "-1.000000000");
+  EXPECT_EQ(text_at(first, {"shape", "polygon", "point", "y"}), "-1.000000000");
+  const XMLElement* second = first->NextSiblingElement();
+  EXPECT_EQ(second->IntAttribute("id"), kObstacleIds + 2);
+  EXPECT_STREQ(second->NextSiblingElement()->Name(), "dynamicObstacle");
+}
+
 TEST(CommonRoadFile, StatesHaveNineDecimalsAndWrappedAngles) {
-  const std::string xml = commonroad_xml(small_map(5), {}, two_vehicles(), 0.01);
+  const std::string xml = commonroad_xml(small_map(5), {}, two_vehicles(), {}, 0.01);
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(xml.c_str()), tinyxml2::XML_SUCCESS);
   const XMLElement* planned = document.RootElement()->FirstChildElement("dynamicObstacle");
@@ -93,19 +111,22 @@ TEST(CommonRoadFile, StatesHaveNineDecimalsAndWrappedAngles) {
 
 TEST(CommonRoadFile, RefusesLaneletsThatTakeTheIdsOfVehicles) {
   const auto write = [](road::LaneletId id) {
-    return [id] { static_cast<void>(commonroad_xml(small_map(id), {}, two_vehicles(), 0.01)); };
+    return [id] { static_cast<void>(commonroad_xml(small_map(id), {}, two_vehicles(), {}, 0.01)); };
   };
   EXPECT_NO_THROW(write(kProblemIds)());
   EXPECT_THAT(write(kProblemIds + 1), ThrowsMessage<std::runtime_error>(HasSubstr("1000001")));
 }
 
 TEST(OpenGround, HoldsAllPositions) {
-  const road::LaneletMap ground = open_ground(two_vehicles());
+  const road::LaneletMap ground = open_ground(two_vehicles(), {});
   const road::Lanelet& lanelet = ground.lanelets.at(1);
   EXPECT_DOUBLE_EQ(lanelet.right_m.front().x(), 3.0 - 0.5);
   EXPECT_DOUBLE_EQ(lanelet.right_m.front().y(), 1.0 / 3.0 - 0.5);
   EXPECT_DOUBLE_EQ(lanelet.left_m.back().x(), 7.2 + 0.5);
   EXPECT_DOUBLE_EQ(lanelet.left_m.back().y(), 1.0 / 3.0 + 0.5);
+  const ConvexPolygon beside_m{{{4.0, -2.0}, {5.0, -2.0}, {5.0, -1.0}}};
+  EXPECT_DOUBLE_EQ(open_ground(two_vehicles(), {beside_m}).lanelets.at(1).right_m.front().y(),
+                   -2.5);
 }
 
 }  // namespace

@@ -46,7 +46,8 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
                   "steps", "vehicles", "generated_vertices_sum_max", "min_footprint_distance_m",
                   "collisions", "wall_s", "realtime_factor", "response_time_ms", "trace_sha256",
                   "revision", "host", "engine", "expanded_vertices_sum_max", "policy",
-                  "longest_wait_s", "stuck_vehicles", "joint_gap", "priorities", "rounds"));
+                  "longest_wait_s", "stuck_vehicles", "joint_gap", "priorities", "rounds",
+                  "min_obstacle_distance_m", "obstacles"));
   const auto& vehicle = json["vehicles"][0];
   EXPECT_THAT(keys(vehicle), ElementsAre("id", "name", "lap_s", "reference_error_mm",
                                          "tracking_error_mm", "generated_vertices",
@@ -67,6 +68,18 @@ TEST(SummaryFile, NamesTheRoundsOfMessages) {
   EXPECT_EQ(nlohmann::json::parse(summary_json(summary))["rounds"], "sequential");
   summary.description.has_two_rounds = true;
   EXPECT_EQ(nlohmann::json::parse(summary_json(summary))["rounds"], "two");
+}
+
+TEST(SummaryFile, HasTheObstaclesAndHowCloseTheyWere) {
+  result::RunSummary summary = some_summary();
+  summary.min_obstacle_distance_m = 0.25;
+  summary.description.obstacles = {{.name = "van", .area_m = {{{1, 2}, {3, 2}, {3, 4}}}},
+                                   {.name = {}, .from = 7, .area_m = {}}};
+  const auto json = nlohmann::ordered_json::parse(summary_json(summary));
+  EXPECT_EQ(json["min_obstacle_distance_m"].get<double>(), 0.25);
+  EXPECT_EQ(json["obstacles"].dump(),
+            R"([{"name":"van","from_step":0,"corners_m":[[1.0,2.0],[3.0,2.0],[3.0,4.0]]},)"
+            R"({"name":null,"from_step":7,"corners_m":[]}])");
 }
 
 TEST(SummaryFile, UnitsAreThoseOfTheKeys) {

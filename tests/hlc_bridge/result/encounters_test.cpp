@@ -133,5 +133,23 @@ TEST(Encounters, AgreesWithLookingAtEveryPairAndInstant) {
   }
 }
 
+TEST(EncountersWithObstacles, AreCountedFromTheStepOnFromWhichTheyStand) {
+  const Drives through{{1, drive({{0, 0, 0}, {0.5, 0, 0}, {1.0, 0, 0}, {1.5, 0, 0}, {1.0, 0, 0}})}};
+  const auto obstacle = [](std::uint64_t from) {
+    return std::vector<Obstacle>{
+        {.name = "", .from = from, .area_m = footprint_area({0.1, 0.1}, {1.0, 0.0, 0.0})}};
+  };
+  const auto found = [&](std::uint64_t from, Nanoseconds to) {
+    return encounters_with(obstacle(from), vehicles(1), through, 0, kTick, to);
+  };
+  EXPECT_EQ(found(0, kLongTime).collisions, 2U) << "it drove on in between";
+  EXPECT_EQ(found(0, kLongTime).min_distance_m, 0.0);
+  EXPECT_EQ(found(3, kLongTime).collisions, 1U);
+  EXPECT_EQ(found(9, kLongTime).collisions, 0U);
+  EXPECT_FALSE(found(9, kLongTime).min_distance_m);
+  EXPECT_EQ(found(0, kTick).collisions, 0U);
+  EXPECT_NEAR(found(0, kTick).min_distance_m.value(), 0.5 - 0.05 - 0.11, 1e-12);
+}
+
 }  // namespace
 }  // namespace hlc::result::encounters_test

@@ -138,6 +138,17 @@ TEST(FoxgloveChannels, TheMapHasBothBoundsOfEveryLaneAndTheRoutes) {
   EXPECT_EQ(entities.at(3).at("id"), "route 3");
 }
 
+TEST(FoxgloveChannels, TheMapHasTheOutlineOfEveryObstacle) {
+  FinishedRun run = sample_run(2, 5);
+  run.description.obstacles = {
+      {.name = "cone", .area_m = footprint_area({0.4, 0.2}, {1.0, 2.0, 0.0})}};
+  const Messages map = messages_of(run, "scene/map");
+  const auto& entities = map.front().second.at("entities");
+  ASSERT_EQ(entities.at(1).at("id"), "obstacles");
+  ASSERT_EQ(entities.at(1).at("lines").size(), 1U);
+  EXPECT_EQ(entities.at(1).at("lines").at(0).at("points").size(), 4U);
+}
+
 TEST(FoxgloveChannels, EveryStepHasTheReportsOfAllCarsInWordsAndTheirSpeeds) {
   FinishedRun run = sample_run(3, 10);
   run.drives.erase(3);

@@ -199,7 +199,8 @@ TEST_F(PageInBrowser, WhatWasSearchedInAStepIsShownOverThePage) {
 TEST_F(PageInBrowser, AnObstacleThatAForkAddedIsDrawnFromItsStepOn) {
   FinishedRun run = sample_run(2, 20);
   run.fork = "a fork: from step 5 on obstacle=1,2,0.4,0.3";
-  run.obstacles = {{.from = 5, .pose = {1.0, 2.0, 0.0}, .length_m = 0.4, .width_m = 0.3}};
+  run.description.obstacles = {
+      {.name = {}, .from = 5, .area_m = footprint_area({0.4, 0.3}, {1.0, 2.0, 0.0})}};
   const json result = result_of(run, R"(
     const colours = () => {
       const drawn = [];

@@ -94,6 +94,26 @@ TEST_F(Replica, OnAnotherBasisCannotPlan) {
   }
 }
 
+TEST_F(Replica, OfAVehicleWithOtherObstaclesCannotPlan) {
+  one_->add_obstacle({{{3.0, 3.0}, {4.0, 3.0}, {4.0, 4.0}}});
+  EXPECT_FALSE(sharing(2, 0.3)->resume(from_two_, *one_)) << "car 2 knows nothing of it";
+  two_->add_obstacle({{{3.0, 3.0}, {4.0, 3.0}, {4.0, 4.1}}});
+  EXPECT_NE(from_two_.planning->basis, two_->planning_basis());
+  EXPECT_NE(one_->planning_basis(), two_->planning_basis());
+  from_two_.planning->basis = two_->planning_basis();
+  EXPECT_FALSE(sharing(2, 0.3)->resume(from_two_, *one_)) << "a corner is elsewhere";
+}
+
+TEST_F(Replica, OfAVehicleWithTheSameObstaclesHasThem) {
+  const ConvexPolygon area_m{{{3.0, 3.0}, {4.0, 3.0}, {4.0, 4.0}}};
+  one_->add_obstacle(area_m);
+  two_->add_obstacle(area_m);
+  from_two_.planning->basis = two_->planning_basis();
+  const auto replica = sharing(2, 0.3);
+  EXPECT_TRUE(replica->resume(from_two_, *one_));
+  EXPECT_TRUE(replica->has_obstacles());
+}
+
 TEST_F(Replica, OnAnotherSubgraphCannotPlan) {
   const auto replica = sharing(2, 0.3);
   automaton::SubgraphSpec slow = subgraph()->spec();

@@ -45,7 +45,15 @@ TEST(ScenarioData, OpenGroundHasNoLanes) {
   EXPECT_EQ(data["has_map"], false);
   EXPECT_TRUE(data["lanelets"].empty());
   EXPECT_EQ(data["vehicles"].size(), 4U);
+  EXPECT_TRUE(data["obstacles"].empty());
   EXPECT_EQ(data.dump(), data_of("circle").dump());
+}
+
+TEST(ScenarioData, HasTheObstacles) {
+  const auto data = data_of("obstacle_field");
+  ASSERT_FALSE(data["obstacles"].empty());
+  EXPECT_FALSE(data["obstacles"][0]["name"].get<std::string>().empty());
+  EXPECT_GE(data["obstacles"][0]["corners_m"].size(), 3U);
 }
 
 }  // namespace
