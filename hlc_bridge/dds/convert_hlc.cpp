@@ -130,7 +130,8 @@ bool is_valid(const ReportMessage& wire) {
          wire.subgraph().size() <= kMaxText &&
          all_finite(wire.cost_m2(), wire.gap_m2(), wire.bound_m2(), wire.deviation_m()) &&
          is_valid(wire.coupled()) && is_valid(wire.missing()) && is_valid(wire.waits_for()) &&
-         is_valid(wire.blocked_by()) && wire.waits_since() <= wire.step() && has_valid_plan(wire) &&
+         is_valid(wire.blocked_by()) && wire.waits_since() <= wire.step() &&
+         (!wire.has_arrived() || wire.arrived_since() <= wire.step()) && has_valid_plan(wire) &&
          is_near(wire.held_place_m()) && is_near(wire.held_ahead_m()) &&
          (!wire.has_certificate() || dds::is_valid(wire.certificate()));
 }
@@ -243,7 +244,7 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   const auto& [report, planning_ns, deadline_missed, late_ns, response_ns] = message;
   const auto& [vehicle, step, status, reason, planned_pose, planned_trim, maneuver, subgraph,
                cost_m2, quality, gap_m2, bound_m2, generated, expanded, level, coupled, missing,
-               deviation_m, waiting, blocked_by, plan, held, certificate] = report;
+               deviation_m, waiting, arrived_since, blocked_by, plan, held, certificate] = report;
   const auto& [waits_for, waits_since] = waiting;
   wire.vehicle_id(vehicle.value);
   wire.step(step.value);
@@ -285,6 +286,8 @@ void to_wire(const ReportRecord& message, ReportMessage& wire) {
   wire.has_certificate(certificate != nullptr);
   wire.certificate(
       certificate_to_wire(certificate != nullptr ? *certificate : coordination::Certificate{}));
+  wire.has_arrived(arrived_since.has_value());
+  wire.arrived_since(arrived_since.value_or(StepIndex{}).value);
 }
 
 Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
@@ -311,6 +314,8 @@ Incoming<ReportRecord> from_wire(const ReportMessage& wire) {
       .missing = ids_from_wire(wire.missing()),
       .deviation_m = wire.deviation_m(),
       .waiting = {.vehicles = ids_from_wire(wire.waits_for()), .since = {wire.waits_since()}},
+      .arrived_since =
+          wire.has_arrived() ? std::optional(StepIndex{wire.arrived_since()}) : std::nullopt,
       .blocked_by = ids_from_wire(wire.blocked_by()),
       .plan = plan_from_wire(wire),
       .held = wire.holds_road()

@@ -64,6 +64,7 @@ void LabControlMachine::append(const LabRunActions& todo, Nanoseconds wall, Acti
     actions.emplace_back(machine::info(process + " is back"));
   }
   for (const std::string& line : todo.stuck) actions.emplace_back(machine::warning(line));
+  for (const std::string& line : todo.arrived) actions.emplace_back(machine::info(line));
   if (todo.run_state) {
     actions.emplace_back(RunState{.phase = *todo.run_state, .start = run_->start()});
   }

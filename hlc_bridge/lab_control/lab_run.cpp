@@ -29,14 +29,14 @@ LabRun::LabRun(LabRunSettings settings)
     : settings_{std::move(settings)},
       attendance_{settings_.vehicle_ids},
       reports_{settings_.vehicle_ids},
-      waiting_{settings_.period} {}
+      standing_{settings_.period} {}
 
 void LabRun::report(const ReportRecord& record) {
   if (!reports_.add(record)) return;
   result_.first_step = reports_.first_step();
   const std::uint64_t step = record.report.step.value;
   if (result_.first_step && step < *result_.first_step + settings_.steps) {
-    waiting_.add(record.report);
+    standing_.add(record.report, {*result_.first_step});
   }
   note_progress();
 }
@@ -57,7 +57,8 @@ LabRunActions LabRun::advance(Nanoseconds now) {
     return actions;
   }
   note_time(now);
-  actions.stuck = waiting_.take_notices();
+  actions.stuck = standing_.take_stuck();
+  actions.arrived = standing_.take_arrived();
   if (phase_ == Phase::kGathering) {
     gather(actions);
   }
@@ -211,7 +212,7 @@ void LabRun::leave_running_phases(LabRunActions& actions) {
     if (settings_.on_death == OnDeath::kContinue && !gone.empty()) {
       fail(kExitDied, fmt::format("died and not back: {}", fmt::join(gone, ", ")));
     }
-    if (const std::string stuck = waiting_.stuck_line();
+    if (const std::string stuck = standing_.stuck_line();
         phase_ == Phase::kRunning && !stuck.empty()) {
       fail(kExitStuck, stuck);
     }

@@ -9,7 +9,7 @@
 
 #include "hlc_bridge/lab_control/attendance.hpp"
 #include "hlc_bridge/lab_control/reported_steps.hpp"
-#include "hlc_bridge/lab_control/waiting_vehicles.hpp"
+#include "hlc_bridge/lab_control/standing_vehicles.hpp"
 #include "hlc_bridge/messages/death.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/instant.hpp"
@@ -50,6 +50,7 @@ struct LabRunActions {
   std::vector<Death> deaths;         ///< for the log and the operator
   std::vector<std::string> returns;  ///< dead processes that are back; for the log and the operator
   std::vector<std::string> stuck;    ///< a line for each vehicle that has become stuck; for the log
+  std::vector<std::string> arrived;  ///< likewise at its goal
   std::optional<RunPhase> run_state;  ///< to be published
   std::vector<Nanoseconds> triggers;  ///< SystemTriggers to be sent, in this order
 };
@@ -204,7 +205,7 @@ class LabRun {
   LabRunResult result_;
   Attendance attendance_;
   ReportedSteps reports_;
-  WaitingVehicles waiting_;
+  StandingVehicles standing_;
   bool is_end_requested_{};  ///< interrupted, or a controller requested the stop
   bool progress_{};
   bool started_{};

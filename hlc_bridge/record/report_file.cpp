@@ -22,7 +22,7 @@ constexpr std::string_view kHeading =
     "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,cost_m2,"
     "quality,gap_m2,generated,expanded,level,coupled,missing,deviation_m,planning_ns,deadline_"
     "missed,late_ns,maneuver,subgraph,waits_for,waits_since,response_ns,blocked_by,plan,"
-    "held_route,held_place_m,held_ahead_m,bound_m2";
+    "held_route,held_place_m,held_ahead_m,bound_m2,arrived_since";
 
 constexpr char kEscape = '\\';
 
@@ -77,7 +77,8 @@ std::string line(const ReportRecord& record) {
                  ids_to_text(report.waiting.vehicles), report.waiting.since.value,
                  record.response_ns, ids_to_text(report.blocked_by), plan_text(report.plan),
                  held(&coordination::HeldRoad::route), held(&coordination::HeldRoad::place_m),
-                 held(&coordination::HeldRoad::ahead_m), report.bound_m2)
+                 held(&coordination::HeldRoad::ahead_m), report.bound_m2,
+                 report.arrived_since ? std::optional(report.arrived_since->value) : std::nullopt)
       .text();
 }
 
@@ -119,6 +120,12 @@ class RowReader {
     }
     ++column_;
     return value;
+  }
+  /// Not after `latest`.
+  std::optional<StepIndex> optional_step(StepIndex latest) {
+    if (!table_.text(row_, column_).empty()) return StepIndex{whole(0, latest.value)};
+    ++column_;
+    return std::nullopt;
   }
   template <class Enum>
   Enum name(std::uint8_t count) {
@@ -214,6 +221,7 @@ ReportRecord read_row(RowReader row) {
   report.plan = row.plan();
   report.held = row.held();
   report.bound_m2 = row.optional_number();
+  report.arrived_since = row.optional_step(report.step);
   return record;
 }
 

@@ -10,7 +10,7 @@ std::string steps_csv(std::span<const result::StepRecord> rows) {
       "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,driven_x_m,"
       "driven_y_m,driven_yaw_rad,cost_m2,generated,expanded,level,coupled,missing,deviation_m,"
       "quality,gap_m2,maneuver,subgraph,waits_for,waits_since,blocked_by,t_s,driven_speed_mps,"
-      "bound_m2\n";
+      "bound_m2,arrived_since\n";
   for (const result::StepRecord& row : rows) {
     const coordination::Report& report = row.record.report;
     const Pose& planned = report.planned_pose;
@@ -25,7 +25,8 @@ std::string steps_csv(std::span<const result::StepRecord> rows) {
                     ids_to_text(report.missing), report.deviation_m,
                     coordination::to_string(report.quality), report.gap_m2, report.maneuver,
                     report.subgraph, ids_to_text(report.waiting.vehicles), result::waits_since(row),
-                    ids_to_text(report.blocked_by), row.t_s, row.driven_speed_mps, report.bound_m2)
+                    ids_to_text(report.blocked_by), row.t_s, row.driven_speed_mps, report.bound_m2,
+                    result::arrived_since(row))
                 .text();
   }
   return text;

@@ -78,6 +78,7 @@ Json vehicle_json(const result::VehicleSummary& vehicle) {
                                              {"since_step", vehicle.wait->since_step},
                                              {"waits_for", numbers(vehicle.wait->vehicles)}}
                                       : Json(nullptr);
+  json["arrived_s"] = or_null(vehicle.arrived_s);
   return json;
 }
 

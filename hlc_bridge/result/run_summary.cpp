@@ -185,6 +185,9 @@ VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
   add_route(vehicle, own, description.step_s, summary);
   add_search(own, description.step_s, summary);
   summary.wait = longest_wait(own, description.step_s);
+  if (const auto since = own.empty() ? std::nullopt : arrived_since(*own.back())) {
+    summary.arrived_s = static_cast<double>(*since) * description.step_s;
+  }
   summary.is_stuck =
       !own.empty() && coordination::is_stuck(own.back()->record.report, description.step_s);
   if (!facts.simulated_time) {

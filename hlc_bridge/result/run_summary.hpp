@@ -20,6 +20,8 @@ struct VehicleSummary {
   /// and until then the vehicle stands, whatever it plans. So the lap compares with the authors'
   /// simulation, whose plans are driven at once. Closed routes only.
   std::optional<double> lap_s;
+  /// When it came to stand at its goal, where it is in its last step; from step 0 on.
+  std::optional<double> arrived_s;
   std::optional<Statistics> reference_error_m;  ///< planned positions to the route's centre line
   /// Positions driven at the steps' times to the same line.
   std::optional<Statistics> driven_error_m;

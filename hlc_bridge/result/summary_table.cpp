@@ -13,8 +13,10 @@ namespace {
 constexpr double kMillimetresPerMetre = 1e3;
 constexpr double kMillisecondsPerSecond = 1e3;
 
+constexpr int kLapWidth = 6;
+constexpr int kArrivedWidth = 18;
 constexpr std::string_view kRow =
-    "{:>3}  {:<8} {:>14} {:>6} {:>9} {:>9} {:>13} {:>6} {:>6} {:>12} {:>6} {:>6}\n";
+    "{:>3}  {:<8} {:>14} {:>{}} {:>9} {:>9} {:>13} {:>6} {:>6} {:>12} {:>6} {:>6}\n";
 
 std::string mean_std(const std::optional<Statistics>& value, double factor, int decimals) {
   if (!value) return "-";
@@ -26,23 +28,34 @@ std::string in_decimals(double value, int decimals) {
   return fmt::format("{:.{}f}", value, decimals);
 }
 
-std::string row(const VehicleSummary& vehicle) {
+/// Width of the column of laps, where vehicles that arrived have no lap.
+int lap_width(const RunSummary& summary) {
+  const auto has_arrived = [](const VehicleSummary& one) { return one.arrived_s.has_value(); };
+  return std::ranges::any_of(summary.vehicles, has_arrived) ? kArrivedWidth : kLapWidth;
+}
+
+std::string lap(const VehicleSummary& vehicle) {
+  if (vehicle.arrived_s) return fmt::format("arrived at {:.1f} s", *vehicle.arrived_s);
+  return vehicle.lap_s ? in_decimals(*vehicle.lap_s, 2) : "-";
+}
+
+std::string row(const VehicleSummary& vehicle, int lap_width) {
   const auto& tracking = vehicle.tracking_error_m;
   const auto& planning = vehicle.planning_s;
   const auto largest = [](const std::optional<Statistics>& value) {
     return value ? in_decimals(value->max, 0) : "-";
   };
-  return fmt::format(
-      kRow, vehicle.id.value, vehicle.name,
-      mean_std(vehicle.reference_error_m, kMillimetresPerMetre, 1),
-      vehicle.lap_s ? in_decimals(*vehicle.lap_s, 2) : "-", largest(vehicle.generated),
-      largest(vehicle.expanded), mean_std(planning, kMillisecondsPerSecond, 2),
-      planning ? in_decimals(planning->p99 * kMillisecondsPerSecond, 2) : "-",
-      planning ? in_decimals(planning->max * kMillisecondsPerSecond, 2) : "-",
-      tracking ? fmt::format("{:.1f} / {:.1f}", tracking->mean * kMillimetresPerMetre,
-                             tracking->max * kMillimetresPerMetre)
-               : "-",
-      vehicle.fallback_steps, vehicle.deadline_misses);
+  return fmt::format(kRow, vehicle.id.value, vehicle.name,
+                     mean_std(vehicle.reference_error_m, kMillimetresPerMetre, 1), lap(vehicle),
+                     lap_width, largest(vehicle.generated), largest(vehicle.expanded),
+                     mean_std(planning, kMillisecondsPerSecond, 2),
+                     planning ? in_decimals(planning->p99 * kMillisecondsPerSecond, 2) : "-",
+                     planning ? in_decimals(planning->max * kMillisecondsPerSecond, 2) : "-",
+                     tracking
+                         ? fmt::format("{:.1f} / {:.1f}", tracking->mean * kMillimetresPerMetre,
+                                       tracking->max * kMillimetresPerMetre)
+                         : "-",
+                     vehicle.fallback_steps, vehicle.deadline_misses);
 }
 
 /// As many as fit into a line.
@@ -113,6 +126,9 @@ std::string legend(const RunSummary& summary) {
       "tracking error   driven to planned position at the same instant, every 20 ms\n"
       "fallb.           steps in which the previous plan stayed in force\n"
       "late             steps in which a deadline was missed (real time)\n";
+  if (lap_width(summary) == kArrivedWidth) {
+    text += "arrived          stands at the end of its route, or in its goal, from then on\n";
+  }
   if (summary.joint_gap) {
     text +=
         "joint optimum    least cost that the new plans of coupled vehicles could have together in "
@@ -141,12 +157,14 @@ std::string summary_table(const RunSummary& summary) {
                                                                : ", priorities " + run.priorities,
       run.profile, run.map,
       run.noise_seed ? fmt::format("noise seed {}", *run.noise_seed) : "no noise");
-  text += fmt::format("{:>3}  {:<8} {:>14} {:>6} {:>19} {:>27} {:>12} {:>13}\n", "", "",
-                      "reference", "lap", "vertices, max", "planning time", "tracking", "steps");
-  text += fmt::format(kRow, "id", "vehicle", "error [mm]", "[s]", "generated", "expanded", "[ms]",
-                      "p99", "max", "error [mm]", "fallb.", "late");
+  const int laps = lap_width(summary);
+  text +=
+      fmt::format("{:>3}  {:<8} {:>14} {:>{}} {:>19} {:>27} {:>12} {:>13}\n", "", "", "reference",
+                  "lap", laps, "vertices, max", "planning time", "tracking", "steps");
+  text += fmt::format(kRow, "id", "vehicle", "error [mm]", "[s]", laps, "generated", "expanded",
+                      "[ms]", "p99", "max", "error [mm]", "fallb.", "late");
   for (const VehicleSummary& vehicle : summary.vehicles) {
-    text += row(vehicle);
+    text += row(vehicle, laps);
   }
   text += fmt::format(
       "\nall vehicles\n"

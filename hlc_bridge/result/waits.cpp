@@ -6,10 +6,25 @@
 
 namespace hlc::result {
 
+namespace {
+
+/// From 0.
+std::uint64_t counted_in_run(StepIndex since, const StepRecord& row) {
+  return row.step - std::min(row.step, row.record.report.step.value - since.value);
+}
+
+}  // namespace
+
 std::optional<std::uint64_t> waits_since(const StepRecord& row) {
   const coordination::Report& report = row.record.report;
   if (report.waiting.vehicles.empty()) return std::nullopt;
-  return row.step - std::min(row.step, report.step.value - report.waiting.since.value);
+  return counted_in_run(report.waiting.since, row);
+}
+
+std::optional<std::uint64_t> arrived_since(const StepRecord& row) {
+  const coordination::Report& report = row.record.report;
+  if (!report.arrived_since) return std::nullopt;
+  return counted_in_run(*report.arrived_since, row);
 }
 
 std::optional<Wait> longest_wait(std::span<const StepRecord* const> rows, double step_s) {

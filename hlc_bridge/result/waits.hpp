@@ -8,7 +8,8 @@
 
 #include "hlc_bridge/result/run_record.hpp"
 
-/// Waiting in a run: vehicles that stood because of others (planner/coordination/waiting.hpp).
+/// Standing in a run: vehicles that waited for others (planner/coordination/waiting.hpp), or had
+/// arrived.
 namespace hlc::result {
 
 struct RunSummary;
@@ -22,6 +23,9 @@ struct Wait {
 
 /// Step from which on the vehicle waits in this row, from 0: k - k0; none: it does not wait.
 [[nodiscard]] std::optional<std::uint64_t> waits_since(const StepRecord& row);
+
+/// Step since which the vehicle is at its goal in this row, from 0; none: it is not.
+[[nodiscard]] std::optional<std::uint64_t> arrived_since(const StepRecord& row);
 
 /// The longest waiting in a vehicle's rows, of equal ones the first; none: it never waited.
 [[nodiscard]] std::optional<Wait> longest_wait(std::span<const StepRecord* const> rows,

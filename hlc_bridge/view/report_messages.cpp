@@ -35,6 +35,7 @@ Json report_json(const ReportRecord& record, std::optional<double> speed_mps) {
             {"missing", ids_json(report.missing)},
             {"waits_for", ids_json(report.waiting.vehicles)},
             {"blocked_by", ids_json(report.blocked_by)}};
+  if (report.arrived_since) json["arrived_since"] = report.arrived_since->value;
   if (speed_mps) json["speed_mps"] = *speed_mps;
   return json;
 }
@@ -62,6 +63,7 @@ std::string reports_schema() {
        {"missing", ids},
        {"waits_for", ids},
        {"blocked_by", ids},
+       {"arrived_since", plain_schema("integer")},
        {"speed_mps", number}});
   return schema_text(kReportsType, {{"reports", array_schema(report)}});
 }

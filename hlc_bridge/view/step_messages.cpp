@@ -68,6 +68,7 @@ class StepColumns {
     put("waits_for", sets_.number_of(numbers_of(report.waiting.vehicles)));
     put("blocked_by", sets_.number_of(numbers_of(report.blocked_by)));
     put("waits_since", result::waits_since(row).value_or(0));
+    put("arrived", report.arrived_since ? 1 : 0);
     put("together", names_.number_of(together));
     put("level", report.level);
     put("generated", report.generated);

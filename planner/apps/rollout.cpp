@@ -148,7 +148,8 @@ int run(const Choices& choices) {
       rollout.controllers()[j]->note_bound(report);
       Tally& tally = tallies[report.vehicle];
       add(tally, report, step_s);
-      if (others_changed_the_plan(*rollout.controllers()[j], standing_m, *alone, report)) ++tally.changed;
+      if (others_changed_the_plan(*rollout.controllers()[j], standing_m, *alone, report))
+        ++tally.changed;
     }
     std::ranges::copy(gaps_of(reports), std::back_inserter(gaps));
   }
@@ -161,6 +162,11 @@ int run(const Choices& choices) {
   std::printf(
       "changed: steps in which the others changed the vehicle's plan; wait: the longest, of a "
       "vehicle that stood\nthough without the others it would have driven\n");
+  for (const auto& [id, tally] : tallies) {
+    if (!tally.last.arrived_since) continue;
+    std::printf("vehicle %d arrived at its goal after %.1f s\n", id.value,
+                step_s * static_cast<double>(tally.last.arrived_since->value - 1));
+  }
   for (const auto& [id, tally] : tallies) {
     if (!hlc::coordination::is_stuck(tally.last, step_s)) continue;
     std::printf("stuck at the end: %s\n",

@@ -114,8 +114,8 @@ class Controller {
   /// The same, prepared by this call.
   void switch_to(std::shared_ptr<const automaton::Subgraph> next);
 
-  /// A step before the start: the plan in force is to stand at the measured pose. Without a
-  /// measurement of the own vehicle the former plan, if any, stays.
+  /// A step before the start: the plan in force is to stand at the measured pose. Without one of
+  /// the own vehicle the former plan, if any, stays.
   [[nodiscard]] coordination::Report stand_by(const Observation& observation);
 
   /// If requested, nothing new is planned from the next step on, and the plan in force is driven to
@@ -191,9 +191,9 @@ class Controller {
 
   /// After the last phase of every step, once the command is published: enters in the step's report
   /// which vehicles kept the new plan from coming into force (blocked_by.hpp), for which this one
-  /// waits (waits_for.hpp), and since when. Changes no plan. Searches once if the plan in force
-  /// stands or no plan was found. A late step is not examined: the waiting of the step before
-  /// lasts.
+  /// waits (waits_for.hpp), and since when, or since when it is at its goal: there it waits for
+  /// none. Changes no plan. Searches once if the plan in force stands or no plan was found. In a
+  /// late step the waiting of the step before lasts.
   void note_causes(coordination::Report& report);
   /// Likewise: enters Report::bound_m2. Searches once if the vehicle has planned around the new
   /// plans of others, with the budget of a search that makes room.
@@ -343,6 +343,7 @@ class Controller {
       std::span<const CoupledVehicle> coupled_vehicles, CoupledObstacleRule rule,
       std::span<const MissingVehicle> missing) const;
   [[nodiscard]] std::vector<std::vector<ConvexPolygon>> obstacles_m(CoupledObstacleRule rule) const;
+  void note_arrival(coordination::Report& report);
   void note_opposed(const coordination::ReceivedMessages<coordination::Outcome>& outcomes);
   [[nodiscard]] coordination::Plan plan_of(
       const std::vector<const automaton::Maneuver*>& maneuvers) const;

@@ -241,7 +241,17 @@ std::vector<coordination::Separation> Controller::separations(
   return separations;
 }
 
+void Controller::note_arrival(coordination::Report& report) {
+  if (!has_plan() || report.status == coordination::StepStatus::kStandby) return;
+  const coordination::Plan& plan = plan_in_force();
+  const Pose pose = plan.pose_at(report.step);
+  tracker_.note_place(pose, stays_at(plan, pose, report.step, std::max(report.step, plan.end())),
+                      report.step, subgraph().automaton().vehicle.footprint);
+  report.arrived_since = tracker_.arrived_since();
+}
+
 void Controller::note_causes(coordination::Report& report) {
+  note_arrival(report);
   if (report.reason != coordination::FallbackReason::kLate) {
     std::vector<VehicleId> vehicles;
     if (has_plan()) {
@@ -257,7 +267,7 @@ void Controller::note_causes(coordination::Report& report) {
                                  return *alone;
                                },
                            .others = [this] { return other_vehicles(); }};
-      vehicles = waits_for(step);
+      if (!report.arrived_since) vehicles = waits_for(step);
       report.blocked_by = blocked_by(step);
     }
     if (vehicles.empty()) waiting_.since = {};

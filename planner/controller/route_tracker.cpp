@@ -49,6 +49,17 @@ road::Placement RouteTracker::place(const Pose& pose, const Footprint& footprint
   return placement;
 }
 
+void RouteTracker::note_place(const Pose& pose, bool stands, StepIndex step,
+                              const Footprint& footprint) {
+  const bool is_there =
+      s_m_ && road::is_at_goal(route().path, route().goal, *s_m_, pose, footprint);
+  if (!is_there) {
+    arrived_since_.reset();
+  } else if (stands && !arrived_since_) {
+    arrived_since_ = step;
+  }
+}
+
 double RouteTracker::project(const Point& position_m, double reach_m) const {
   const road::ReferencePath& path = route().path;
   if (!s_m_) return path.project(position_m).s_m;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/coordination/ids.hpp"
 #include "planner/road/placement.hpp"
 
 namespace hlc::controller {
@@ -24,6 +25,10 @@ class RouteTracker {
   /// Arc length on the route; none before the first `select_route`.
   [[nodiscard]] const std::optional<double>& s_m() const { return s_m_; }
 
+  /// Since when the vehicle is at the end of its route without a break (see is_at_goal); none: it
+  /// is not, or it has not yet stood there.
+  [[nodiscard]] const std::optional<StepIndex>& arrived_since() const { return arrived_since_; }
+
   /// Index of the selected route.
   [[nodiscard]] std::size_t index() const { return route_; }
   /// Continues from this place. @pre the route exists
@@ -38,6 +43,10 @@ class RouteTracker {
   /// Advances to the position. @param reach_m  as for `project`
   void advance(const Point& position_m, double reach_m) { s_m_ = project(position_m, reach_m); }
 
+  /// Where the vehicle is in a step, and whether it stands there: it arrives where it stands, and
+  /// has arrived until it leaves the goal.
+  void note_place(const Pose& pose, bool stands, StepIndex step, const Footprint& footprint);
+
   /// Arc length of a position within the vehicle's reach.
   /// @param reach_m  how far it may get
   [[nodiscard]] double project(const Point& position_m, double reach_m) const;
@@ -47,6 +56,7 @@ class RouteTracker {
   std::size_t route_{};
   std::optional<road::Placement> placement_;
   std::optional<double> s_m_;
+  std::optional<StepIndex> arrived_since_;
 };
 
 }  // namespace hlc::controller

@@ -21,15 +21,14 @@ bool may_be_because_of_others(const coordination::Report& report) {
   return false;
 }
 
-/// From t(first) to t(last).
+}  // namespace
+
 bool stays_at(const coordination::Plan& plan, const Pose& pose, StepIndex first, StepIndex last) {
   for (StepIndex step = first; step <= last; ++step.value) {
     if (plan.pose_at(step) != pose) return false;
   }
   return true;
 }
-
-}  // namespace
 
 std::vector<VehicleId> waits_for(const EndedStep& step) {
   const StepIndex now = step.report.step;

@@ -8,6 +8,10 @@
 /// step that is over, and changes no plan.
 namespace hlc::controller {
 
+/// Whether the vehicle keeps the pose from t(first) to t(last).
+[[nodiscard]] bool stays_at(const coordination::Plan& plan, const Pose& pose, StepIndex first,
+                            StepIndex last);
+
 /// The vehicle waits if
 ///
 /// 1. it planned, or kept its plan for a reason that others can cause: `infeasible`, `missing`,

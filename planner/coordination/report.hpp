@@ -97,6 +97,9 @@ struct Report {
   /// how far its footprint reaches beyond the lanes of the nearest.
   double deviation_m{};
   Waiting waiting{};  ///< for which vehicles it stands, and since when
+  /// Step since which the vehicle has been at the end of its route, where it stood in that step;
+  /// none: it has not arrived there, or its route has no end.
+  std::optional<StepIndex> arrived_since{};
   /// Vehicles that kept the new plan from coming into force (planner/controller/blocked_by.hpp),
   /// sorted; empty: none, or it was for the vehicle's own reasons.
   std::vector<VehicleId> blocked_by;

@@ -122,9 +122,11 @@ void look_beyond(const DrivableRoute& route, const std::vector<Point>& outline_m
 
 /// True if the place counts instead of the best one so far: if it is better, and not only a little
 /// where the path drives the same lane again.
-bool replaces(const Placement& place, const Placement& best, const ReferencePath& path) {
+/// @param is_behind  the place lies behind the others on an open path
+bool replaces(const Placement& place, const Placement& best, const ReferencePath& path,
+              bool is_behind) {
   const double gain_m = placement_cost_m(best) - placement_cost_m(place);
-  if (gain_m <= 0.0) return false;
+  if (gain_m <= (is_behind ? kFitsBeyond_m : 0.0)) return false;
   return gain_m > kSameLane_m || !drives_again(path, best.s_m, place.s_m);
 }
 
@@ -147,7 +149,8 @@ Placement best_place(const ReferencePath& path, const Pose& pose, double from_s_
     const Placement one{.s_m = projection.s_m,
                         .distance_m = projection.distance_m,
                         .turned_rad = wrap_angle(pose.heading_rad - heading_rad)};
-    if (replaces(one, best, path)) best = one;
+    const bool is_behind = !path.is_closed() && i < first;
+    if (replaces(one, best, path, is_behind)) best = one;
   }
   return best;
 }

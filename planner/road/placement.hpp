@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "planner/geometry/footprint.hpp"
 #include "planner/road/corridor.hpp"
 #include "planner/road/driving_line.hpp"
+#include "planner/road/goal.hpp"
 #include "planner/road/reference_path.hpp"
 
 namespace hlc::road {
@@ -17,6 +19,7 @@ struct DrivableRoute {
   Corridor corridor;
   DrivingLine driving_line{};  ///< to be followed; arc lengths are always those of the path
   std::uint32_t number{};      ///< in the run's conflict map, if it has one
+  std::optional<Goal> goal{};  ///< in which the path ends; none: an open one leads to its end
 };
 
 /// Placement of a vehicle on a route.
@@ -51,7 +54,9 @@ inline constexpr double kFitsTurned_rad = 0.6;
 /// the mean of the errors of position and front. Where two strands cross or run side by side in
 /// opposite directions it is the one in the vehicle's direction. Where the path drives a lane more
 /// than once (reference_path.hpp), it is the first one from `from_s_m` on, though another one may
-/// be better by up to kSameLane_m.
+/// be better by up to kSameLane_m; and on an open path it is one from there on, though one behind
+/// may be better by up to kFitsBeyond_m: a vehicle that stands at the end of a path is there also
+/// where the path begins.
 /// @param pose  the planner's (heading, not yaw)
 [[nodiscard]] Placement placement_on(const DrivableRoute& route, const Pose& pose,
                                      const Footprint& footprint, double from_s_m = 0.0);

@@ -22,19 +22,19 @@ double read_size(const Node& node, const char* key) {
 }
 
 ConvexPolygon read_rectangle(const Node& node) {
+  node.check_keys({"x_m", "y_m", "heading_rad", "length_m", "width_m"});
   const Pose middle{
       read_coordinate(node, "x_m"), read_coordinate(node, "y_m"),
       node.optional<double>("heading_rad", 0.0,
                             between(-2.0 * std::numbers::pi, 2.0 * std::numbers::pi))};
   const Footprint size{read_size(node, "length_m"), read_size(node, "width_m")};
-  node.check_no_unknown_keys();
   return footprint_area(size, middle);
 }
 
 ConvexPolygon read_circle(const Node& node) {
+  node.check_keys({"x_m", "y_m", "radius_m"});
   const Point middle_m{read_coordinate(node, "x_m"), read_coordinate(node, "y_m")};
   const double radius_m = read_size(node, "radius_m");
-  node.check_no_unknown_keys();
   constexpr double kHalfAngle_rad = std::numbers::pi / double{kCircleCorners};
   ConvexPolygon polygon;
   for (std::size_t i = 0; i < kCircleCorners; ++i) {

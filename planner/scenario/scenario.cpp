@@ -94,7 +94,8 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                .path = named->path,
                .corridor = named->corridor,
                .driving_line = named->driving_line,
-               .number = named->route_number}};
+               .number = named->route_number,
+               .goal = named->goal}};
   }
   controller::ControllerFactory others;
   if (scenario.rounds == controller::Rounds::kTwo) others = others_of(scenario, on);

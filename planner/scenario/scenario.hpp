@@ -26,10 +26,11 @@ struct ScenarioVehicle {
   Pose start;                       ///< planned pose at the start, standing
   double start_s_m{};               ///< arc length of its place on the path
   road::LaneletId start_lanelet{};  ///< in which the start lies; 0 without lanes
-  road::ReferencePath path;         ///< closed: a lap can be driven
+  road::ReferencePath path;         ///< closed: a lap can be driven; open: it ends at the goal
   road::Corridor corridor;
   road::DrivingLine driving_line{};  ///< these two as in DrivableRoute
   std::uint32_t route_number{};
+  std::optional<road::Goal> goal{};  ///< in which the path ends
 };
 
 /// Something that is no vehicle, and stands for good.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "planner/controller/controller_options.hpp"
+#include "planner/scenario/area_values.hpp"
 #include "planner/scenario/policy_file.hpp"
 #include "planner/scenario/priority_values.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -68,6 +69,13 @@ void parse_routes(const Node& scenario, ScenarioValues& values) {
   }
 }
 
+std::optional<ConvexPolygon> read_goal(const Node& vehicle) {
+  if (!vehicle.has("goal")) return std::nullopt;
+  const Node node = vehicle.map("goal");
+  node.check_keys({"rectangle", "circle", "polygon"});
+  return read_area(node);
+}
+
 void parse_vehicles(const Node& scenario, ScenarioValues& values) {
   for (const Node& node : scenario.list("vehicles")) {
     const VehicleId id{
@@ -86,6 +94,7 @@ void parse_vehicles(const Node& scenario, ScenarioValues& values) {
              node.optional<double>("start_left_m", 0.0, between(-kMostBeside_m, kMostBeside_m)),
          .start_turned_rad = node.optional<double>("start_turned_rad", 0.0,
                                                    between(-kMostTurned_rad, kMostTurned_rad)),
+         .goal_m = read_goal(node),
          .node = node});
     node.check_no_unknown_keys();
   }

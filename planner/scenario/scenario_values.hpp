@@ -37,6 +37,7 @@ struct VehicleValues {
   double start_m{};
   double start_left_m{};
   double start_turned_rad{};
+  std::optional<ConvexPolygon> goal_m{};  ///< none: to the end of an open route, or on forever
   Node node;
 };
 
@@ -82,7 +83,7 @@ struct ScenarioValues {
   std::vector<VehicleValues> vehicles{};
   std::uint64_t seed{1};  ///< of random routes and drawn cars
   std::vector<ObstacleValues> obstacles{};
-  Node node;              ///< the whole file, for messages
+  Node node;  ///< the whole file, for messages
 };
 
 /// Reads the values of a scenario file. Relative paths in it start at the folder of `path`.

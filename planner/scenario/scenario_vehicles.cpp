@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "planner/road/route.hpp"
@@ -72,6 +73,18 @@ ScenarioVehicle place_vehicle(const VehicleValues& values, const road::Route& ro
   return vehicle;
 }
 
+/// Its path ends in the middle of the first stretch in its goal.
+void lead_to_goal(const VehicleValues& values, ScenarioVehicle& vehicle) {
+  const auto stretch = road::first_stretch_in(vehicle.path, *values.goal_m, vehicle.start_s_m);
+  if (!stretch) {
+    values.node.fail("goal", fmt::format("a region that the route of vehicle {} ({}) enters after "
+                                         "its start",
+                                         vehicle.id.value, vehicle.name));
+  }
+  vehicle.path = road::path_until(vehicle.path, std::midpoint(stretch->from_s_m, stretch->to_s_m));
+  vehicle.goal = road::Goal{.area_m = *values.goal_m, .from_s_m = stretch->from_s_m};
+}
+
 const road::Route& route_of(const VehicleValues& values, const Routes& routes) {
   const auto route = routes.find(values.route);
   if (route == routes.end()) values.node.fail("route", "the name of an entry of `routes`");
@@ -91,6 +104,7 @@ void add_named_vehicles(const ScenarioValues& values, const road::LaneletMap& ma
                       fmt::format("a start for a random route: {}", error.what()));
       }
     }
+    if (one.goal_m) lead_to_goal(one, vehicle);
     scenario.vehicles.push_back(std::move(vehicle));
   }
 }
@@ -179,6 +193,9 @@ void add_vehicles_on_map(const ScenarioValues& values, const road::LaneletMap& m
   }
   if (scenario.random_routes_on) scenario.routes = routes_of(scenario.vehicles);
   if (values.has_right_of_way) {
+    for (const VehicleValues& one : values.vehicles) {
+      if (one.goal_m) one.node.fail("goal", "absent with right_of_way, whose routes have no end");
+    }
     const auto is_open = [](const auto& one) { return !one.path.is_closed(); };
     if (std::ranges::any_of(scenario.routes, is_open)) {
       values.node.fail("right_of_way", "false: an open route is not supported");

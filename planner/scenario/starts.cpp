@@ -64,7 +64,8 @@ bool is_in_obstacle(const Scenario& scenario, const ConvexPolygon& start_area_m)
 std::vector<road::DrivableRoute> routes_of(std::span<const ScenarioVehicle> vehicles) {
   std::vector<road::DrivableRoute> routes;
   for (const ScenarioVehicle& one : vehicles) {
-    routes.push_back({.name = one.name, .path = one.path, .corridor = one.corridor});
+    routes.push_back(
+        {.name = one.name, .path = one.path, .corridor = one.corridor, .goal = one.goal});
   }
   return routes;
 }

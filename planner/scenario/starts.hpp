@@ -46,8 +46,8 @@ namespace hlc::scenario {
                                                      std::uint64_t seed);
 
 /// The scenario with every vehicle at a random place on its path, uniform in arc length, without
-/// overlaps, also of obstacles; if it has candidates, with as many cars drawn from them again. The same seed gives the
-/// same starts.
+/// overlaps, also of obstacles; if it has candidates, with as many cars drawn from them again. The
+/// same seed gives the same starts.
 /// @throws std::invalid_argument if a path is not closed, or if a thousand draws all overlap
 [[nodiscard]] Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed);
 

@@ -43,7 +43,7 @@ export function state_of(run, vehicle, t) {
     return state("standby", `stands by for the start${where}`);
   }
   if (!driven) return state("unknown", unknown, "not recorded");
-  if (stands) return state("stands", "stands");
+  if (stands) return state("stands", report.arrived ? "at its goal" : "stands");
   return state("drives", `drives, ${Math.abs(driven.speed).toFixed(2)} m/s`);
 }
 

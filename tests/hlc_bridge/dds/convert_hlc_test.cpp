@@ -225,9 +225,20 @@ TEST(OwnConversionRefuses, CertificatesWithoutMeaning) {
 TEST(OwnConversionRefuses, AWaitThatBeginsAfterItsStep) {
   auto report = good<ReportRecord>();
   report.report.step = {200};
+  report.report.arrived_since.reset();
   report.report.waiting = {.vehicles = {{2}}, .since = {200}};
   EXPECT_FALSE(is_refused(report));
   report.report.waiting.since = {201};
+  EXPECT_TRUE(is_refused(report));
+}
+
+TEST(OwnConversionRefuses, AnArrivalAfterItsStep) {
+  auto report = good<ReportRecord>();
+  report.report.step = {200};
+  report.report.waiting = {};
+  report.report.arrived_since = StepIndex{200};
+  EXPECT_FALSE(is_refused(report));
+  report.report.arrived_since = StepIndex{201};
   EXPECT_TRUE(is_refused(report));
 }
 

@@ -165,10 +165,11 @@ void put_message(std::ostream& out, const coordination::Certificate& value) {
   put_all(out, a.length_m, a.width_m, b, c, d);
 }
 void put_message(std::ostream& out, const coordination::Report& value) {
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w] = value;
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = value;
   put_all(out, a, b, c, d, e, f, g, h, i, j, k, l.has_value(), l.value_or(0.0), m, n, o, p, q, r, s,
-          t, u, v.has_value(), v.value_or(coordination::HeldRoad{}), w != nullptr,
-          w != nullptr ? *w : coordination::Certificate{});
+          t.has_value(), t.value_or(StepIndex{}), u, v, w.has_value(),
+          w.value_or(coordination::HeldRoad{}), x != nullptr,
+          x != nullptr ? *x : coordination::Certificate{});
 }
 void put_message(std::ostream& out, const ReportRecord& value) {
   const auto& [a, b, c, d, e] = value;
@@ -541,6 +542,7 @@ ReportRecord sample(Random& random) {
       list(random, 5, vehicle),
       number(random),
       {list(random, 5, vehicle), {step - std::min<std::uint64_t>(step, whole(random, 200))}},
+      coin(random) ? std::optional(StepIndex{whole(random, step)}) : std::nullopt,
       list(random, 5, vehicle),
       list(random, 9, maneuver)};
   if (coin(random)) {

@@ -120,6 +120,22 @@ TEST_F(LogicalLabControl, LogsOnceThatAVehicleIsStuck) {
   EXPECT_THAT(of<machine::LogLine>(advance()), IsEmpty());
 }
 
+TEST_F(LogicalLabControl, LogsOnceThatAVehicleHasArrived) {
+  begin();
+  lab_.on(report(200));
+  static_cast<void>(advance());
+  ReportRecord arrived = report(201);
+  arrived.report.arrived_since = StepIndex{201};
+  lab_.on(arrived);
+  const std::vector<machine::LogLine> lines = of<machine::LogLine>(advance());
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].severity, machine::Severity::kInfo);
+  EXPECT_EQ(lines[0].text, "vehicle 1 arrived at its goal after 0.2 s");
+  arrived.report.step.value = 202;
+  lab_.on(arrived);
+  EXPECT_THAT(of<machine::LogLine>(advance()), IsEmpty());
+}
+
 TEST_F(LogicalLabControl, WhoOwesAnAnswerForTooLongIsDead) {
   begin();
   wall_ += kAnswerTimeout;

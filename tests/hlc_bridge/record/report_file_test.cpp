@@ -61,6 +61,7 @@ ReportRecord random_record(std::mt19937_64& random, std::uint64_t step, std::uin
   if (random() % 2 == 0) {
     report.held = {.route = static_cast<std::uint32_t>(random()), .place_m = 0.1, .ahead_m = 1e-3};
   }
+  if (random() % 2 == 0) report.arrived_since = StepIndex{random() % (step + 1)};
   record.planning_ns = random();
   record.deadline_missed = random() % 2 == 0;
   record.late_ns = random();
@@ -88,6 +89,7 @@ void expect_equal(const ReportRecord& a, const ReportRecord& b) {
   EXPECT_EQ(a.report.missing, b.report.missing);
   EXPECT_EQ(a.report.deviation_m, b.report.deviation_m);
   EXPECT_EQ(a.report.waiting, b.report.waiting);
+  EXPECT_EQ(a.report.arrived_since, b.report.arrived_since);
   EXPECT_EQ(a.report.blocked_by, b.report.blocked_by);
   EXPECT_EQ(a.report.plan, b.report.plan);
   EXPECT_EQ(a.report.held, b.report.held);

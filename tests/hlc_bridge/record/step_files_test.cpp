@@ -34,6 +34,7 @@ result::StepRecord row() {
   report.deviation_m = 0.001;
   report.waiting = {.vehicles = {VehicleId{3}, VehicleId{1}}, .since = StepIndex{7}};
   report.blocked_by = {VehicleId{1}, VehicleId{4}};
+  report.arrived_since = StepIndex{6};
   row.record.planning_ns = 1'500'000;
   row.record.deadline_missed = true;
   row.record.late_ns = 250'000;
@@ -50,7 +51,7 @@ TEST(StepFiles, RowHoldsEveryColumnOnce) {
   EXPECT_EQ(
       text.substr(text.find('\n') + 1),
       "3,2,fallback,conflict,1.5,2.5,-0.5,7,1.5,2.25,-0.25,0.25,40,4,1,1;3,3,0.001,budget,0.125,J2,"
-      "\"B, at most 0.6 m/s\",3;1,2,1;4,0.75,0.625,0.0625\n");
+      "\"B, at most 0.6 m/s\",3;1,2,1;4,0.75,0.625,0.0625,1\n");
   const auto commas = [](const std::string& line) {
     return std::count(line.begin(), line.end(), ',');
   };
@@ -62,15 +63,16 @@ TEST(StepFiles, PoseAndSpeedThatWereNotRecordedAreEmpty) {
   rows[0].driven.reset();
   rows[0].driven_speed_mps.reset();
   rows[0].record.report.bound_m2.reset();
+  rows[0].record.report.arrived_since.reset();
   const std::string text = steps_csv(rows);
   EXPECT_NE(text.find(",7,,,,0.25,"), std::string::npos) << text;
-  EXPECT_TRUE(text.ends_with(",0.75,,\n")) << text;
+  EXPECT_TRUE(text.ends_with(",0.75,,,\n")) << text;
 }
 
 TEST(StepFiles, WithoutAWaitItsColumnsAreEmpty) {
   std::vector<result::StepRecord> rows{row()};
   rows[0].record.report.waiting = {};
-  EXPECT_TRUE(steps_csv(rows).ends_with("0.6 m/s\",,,1;4,0.75,0.625,0.0625\n"));
+  EXPECT_TRUE(steps_csv(rows).ends_with("0.6 m/s\",,,1;4,0.75,0.625,0.0625,1\n"));
 }
 
 TEST(StepFiles, NothingOfTheClockIsInTheSteps) {
@@ -81,6 +83,7 @@ TEST(StepFiles, NothingOfTheClockIsInTheSteps) {
   rows[0].record.late_ns = 98;
   rows[0].record.report.step = StepIndex{100};  // k depends on when a run in real time began
   rows[0].record.report.waiting.since = StepIndex{99};
+  rows[0].record.report.arrived_since = StepIndex{98};
   EXPECT_EQ(steps_csv(rows), before);
 }
 

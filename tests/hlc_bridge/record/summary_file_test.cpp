@@ -49,11 +49,12 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
                   "longest_wait_s", "stuck_vehicles", "joint_gap", "priorities", "rounds",
                   "min_obstacle_distance_m", "obstacles"));
   const auto& vehicle = json["vehicles"][0];
-  EXPECT_THAT(keys(vehicle), ElementsAre("id", "name", "lap_s", "reference_error_mm",
-                                         "tracking_error_mm", "generated_vertices",
-                                         "expanded_vertices", "planning_time_ms", "fallback_steps",
-                                         "deadline_misses", "budget_share", "plans_exceeding_step",
-                                         "undrivable_steps", "driven_error_mm", "longest_wait"));
+  EXPECT_THAT(
+      keys(vehicle),
+      ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
+                  "generated_vertices", "expanded_vertices", "planning_time_ms", "fallback_steps",
+                  "deadline_misses", "budget_share", "plans_exceeding_step", "undrivable_steps",
+                  "driven_error_mm", "longest_wait", "arrived_s"));
   EXPECT_THAT(keys(vehicle["reference_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["driven_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["tracking_error_mm"]), ElementsAre("mean", "max"));

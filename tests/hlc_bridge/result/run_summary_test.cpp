@@ -290,6 +290,38 @@ TEST_F(RunSummaryTest, BudgetShareIsThatOfThePlansFound) {
       HasSubstr("plans cut off by the search's budget         up to 30.0 % of a vehicle's\n"));
 }
 
+TEST_F(RunSummaryTest, AVehicleThatIsAtItsGoalAtTheEndHasArrived) {
+  EXPECT_FALSE(summary().vehicles[0].arrived_s);
+  EXPECT_THAT(summary_table(summary()), Not(HasSubstr("arrived")));
+  report(1, 30).report.arrived_since = {{5 + 30}};
+  EXPECT_FALSE(summary().vehicles[0].arrived_s) << "it left";
+  for (std::uint64_t step = 40; step < 60; ++step) {
+    report(1, step).report.arrived_since = {{5 + 40}};
+  }
+  EXPECT_DOUBLE_EQ(summary().vehicles[0].arrived_s.value(), 8.0);
+  EXPECT_FALSE(summary().vehicles[1].arrived_s);
+  const std::string table = summary_table(summary());
+  EXPECT_THAT(table, HasSubstr(" arrived at 8.0 s "));
+  const std::size_t heading = table.find(" id  vehicle");
+  const std::size_t row = table.find("\n  1  red") + 1;
+  EXPECT_EQ(table.find('\n', heading) - heading, table.find('\n', row) - row);
+}
+
+TEST_F(RunSummaryTest, ATouchedObstacleIsACollision) {
+  EXPECT_FALSE(summary().min_obstacle_distance_m);
+  const auto stands_at = [&](double x_m) {
+    description_.obstacles = {
+        {.name = "cone", .area_m = footprint_area({0.1, 0.1}, {x_m, 0.0, 0.0})}};
+  };
+  stands_at(1.3);
+  EXPECT_EQ(summary().collisions, 0U);
+  EXPECT_GT(summary().min_obstacle_distance_m.value(), 0.1);
+  EXPECT_THAT(summary_table(summary()), HasSubstr("smallest distance to an obstacle             "));
+  stands_at(1.0);
+  EXPECT_GT(summary().collisions, 0U);
+  EXPECT_EQ(summary().min_obstacle_distance_m, 0.0);
+}
+
 /// Steps 20 ... 30 of the run, in which vehicle 1 waits for another one, then shorter again.
 TEST_F(RunSummaryTest, TheLongestWaitNamesTheOthers) {
   EXPECT_FALSE(summary().vehicles[0].wait);

@@ -221,6 +221,27 @@ TEST_F(PageInBrowser, AnObstacleThatAForkAddedIsDrawnFromItsStepOn) {
   EXPECT_THAT(result.at("about"), HasSubstr(run.fork));
 }
 
+TEST_F(PageInBrowser, ACarThatHasArrivedStandsAtItsGoal) {
+  FinishedRun run = sample_run(1, 20);
+  for (result::StepRecord& row : run.rows) row.record.report.waiting = {};
+  for (result::DrivenSample& sample : run.drives.begin()->second) sample.speed_mps = 0.0;
+  result::StepRecord& last = run.rows.back();
+  last.record.report.status = coordination::StepStatus::kPlanned;
+  last.record.report.arrived_since = last.record.report.step;
+  const json result = result_of(run, R"(
+    const words_at = (t) => {
+      at(t);
+      page.select(1);
+      page.draw();
+      return row("state");
+    };
+    result.before = words_at(1);
+    result.at_the_end = words_at(3.9);
+  )");
+  EXPECT_THAT(result.at("at_the_end").get<std::string>(), HasSubstr("at its goal"));
+  EXPECT_THAT(result.at("before").get<std::string>(), testing::Not(HasSubstr("at its goal")));
+}
+
 TEST_F(PageInBrowser, ATimeThatCannotBeIsCorrectedAndAfterEnterTheKeysPlay) {
   const json result = result_of(sample_run(2, 20), R"(
     const field = by_id("time");

@@ -88,6 +88,21 @@ TEST(Placement, FitsAnywhereWhereThereAreNoLanes) {
   EXPECT_TRUE(fits(placement_on(open, {5.0, 4.0, 2.0}, kFootprint), open));
 }
 
+TEST(Placement, OnAnOpenPathThatEndsWhereItBeganIsNotAtTheBeginAgain) {
+  const DrivableRoute loop{
+      .name = "loop",
+      .path = ReferencePath({Point(2.0, 0.0), Point(4.0, 0.0), Point(4.0, 4.0), Point(0.0, 4.0),
+                             Point(0.0, 0.0), Point(2.0, 0.0)},
+                            false),
+      .corridor = {}};
+  const Pose beyond_the_end{2.07, 0.01, 0.0};
+  EXPECT_NEAR(placement_on(loop, beyond_the_end, kFootprint, 15.5).s_m, 16.0, 1e-9);
+  EXPECT_NEAR(placement_on(loop, beyond_the_end, kFootprint, 0.0).s_m, 0.07, 1e-9);
+  const Pose moved_back{3.0, 0.0, 0.0};
+  EXPECT_NEAR(placement_on(loop, moved_back, kFootprint, 15.5).s_m, 1.0, 1e-9)
+      << "somebody has put it there";
+}
+
 TEST(Placement, OfTwoStrandsThatCrossIsOnTheOneThatTheVehiclePointsAlong) {
   const DrivableRoute route{
       .name = "loop",

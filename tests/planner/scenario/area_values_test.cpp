@@ -76,6 +76,7 @@ TEST(AreaValues, ExactlyOneShapeWithinBoundsIsAccepted) {
               HasSubstr("rectangle.length_m = -1"));
   EXPECT_THAT(error_of("rectangle: {x_m: 0, y_m: 0, length_m: 1, width_m: 1, heading_deg: 3}"),
               HasSubstr("heading_deg"));
+  EXPECT_THAT(error_of("circle: {x_m: 0, y_m: 0, radius: 1}"), HasSubstr("circle.radius = 1"));
   EXPECT_THAT(error_of("polygon: [[0, 0], [1, 0]]"), HasSubstr("a list of 3 ... 32 corners, got"));
   EXPECT_THAT(error_of("polygon: [[0, 0], [1, 0], [0, 1, 2]]"), HasSubstr("a corner [x, y] in m"));
 }

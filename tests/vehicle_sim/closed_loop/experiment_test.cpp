@@ -43,6 +43,21 @@ TEST(Experiment, DrivesThePapersScenarioToTheEnd) {
   }
 }
 
+TEST(Experiment, DrivesAroundObstaclesUntilEveryCarHasArrived) {
+  const scenario::Scenario scenario = scenario_of("obstacle_field");
+  for (const std::optional<std::uint64_t> seed :
+       {std::optional<std::uint64_t>{}, std::optional<std::uint64_t>{1}}) {
+    const result::RunSummary summary =
+        summary_of(scenario, {.steps = scenario.steps, .noise_seed = seed});
+    EXPECT_EQ(summary.collisions, 0U);
+    EXPECT_GT(summary.min_obstacle_distance_m.value(), 0.0);
+    for (const result::VehicleSummary& vehicle : summary.vehicles) {
+      EXPECT_TRUE(vehicle.arrived_s) << vehicle.name;
+      EXPECT_FALSE(vehicle.is_stuck);
+    }
+  }
+}
+
 TEST(Experiment, MeasuresEveryStepOfAllControllersByTheClockOfProcessorTime) {
   Nanoseconds now = 0;
   const Experiment experiment = drive_experiment(
