@@ -114,8 +114,8 @@ class Controller {
   /// The same, prepared by this call.
   void switch_to(std::shared_ptr<const automaton::Subgraph> next);
 
-  /// A step before the start: the plan in force is to stand at the measured pose. Without one of
-  /// the own vehicle the former plan, if any, stays.
+  /// A step before the start: the plan in force is to stand at the measured pose. Without a
+  /// measurement of the own vehicle the former plan, if any, stays.
   [[nodiscard]] coordination::Report stand_by(const Observation& observation);
 
   /// If requested, nothing new is planned from the next step on, and the plan in force is driven to

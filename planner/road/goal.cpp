@@ -1,6 +1,7 @@
 #include "planner/road/goal.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "planner/common/demand.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -35,14 +34,7 @@ ConvexPolygon read_circle(const Node& node) {
   node.check_keys({"x_m", "y_m", "radius_m"});
   const Point middle_m{read_coordinate(node, "x_m"), read_coordinate(node, "y_m")};
   const double radius_m = read_size(node, "radius_m");
-  constexpr double kHalfAngle_rad = std::numbers::pi / double{kCircleCorners};
-  ConvexPolygon polygon;
-  for (std::size_t i = 0; i < kCircleCorners; ++i) {
-    const double angle_rad = 2.0 * kHalfAngle_rad * static_cast<double>(i);
-    polygon.vertices_m.emplace_back(middle_m + radius_m / std::cos(kHalfAngle_rad) *
-                                                   Point(std::cos(angle_rad), std::sin(angle_rad)));
-  }
-  return polygon;
+  return around_circle(middle_m, radius_m);
 }
 
 /// Whether `corners_m` goes once round the hull, either way.

@@ -5,8 +5,6 @@
 
 namespace hlc::scenario {
 
-/// Corners of the polygon that takes the place of a circle.
-inline constexpr std::size_t kCircleCorners = 16;
 /// Most corners of a polygon in a file.
 inline constexpr std::size_t kMostCorners = 32;
 /// Largest coordinate of an area, and largest length, width and radius [m].
@@ -21,8 +19,7 @@ inline constexpr double kSmallestArea_m = 0.001;
 ///     circle:    {x_m, y_m, radius_m}
 ///     polygon:   [[x, y], ...]   3 to kMostCorners corners in order, either way round
 ///
-/// A circle is read as the regular polygon of kCircleCorners corners that it touches from within:
-/// no point of the circle is outside, and no corner farther from it than 2 % of the radius.
+/// A circle is read as the polygon around_circle.
 /// @throws std::invalid_argument with one line: bounds, or a polygon that is not convex
 [[nodiscard]] ConvexPolygon read_area(const Node& node);
 

@@ -107,6 +107,20 @@ void check_zones(const Node& node, const Scenario& scenario) {
   }
 }
 
+/// Those of the file first, then those of the map.
+void add_obstacles(const ScenarioValues& values, const std::vector<road::MapObstacle>& on_map,
+                   Scenario& scenario) {
+  for (const ObstacleValues& one : values.obstacles) {
+    scenario.obstacles.push_back({.name = one.name, .area_m = one.area_m});
+  }
+  for (const road::MapObstacle& one : on_map) {
+    for (const ConvexPolygon& area_m : one.areas_m) {
+      scenario.obstacles.push_back(
+          {.name = fmt::format("{} {}", one.type, one.id), .area_m = area_m});
+    }
+  }
+}
+
 /// Votes need a round of their own. Profile 2022 has such a rule; it plans sequentially then.
 /// Comparing orders by their plans needs two rounds.
 controller::Rounds rounds_of(const ScenarioValues& values, const ScenarioChoices& choices,
@@ -164,9 +178,7 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   check_standstill_is_near(values.node, scenario);
   check_lab(scenario);
   choose_policy(values, choices, scenario);
-  for (const ObstacleValues& one : values.obstacles) {
-    scenario.obstacles.push_back({.name = one.name, .area_m = one.area_m});
-  }
+  add_obstacles(values, inputs.map_obstacles, scenario);
   add_vehicles(values, inputs, choices, scenario);
   check_zones(values.node, scenario);
   std::ranges::sort(scenario.vehicles, {}, &ScenarioVehicle::id);

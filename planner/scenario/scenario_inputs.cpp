@@ -36,6 +36,7 @@ ScenarioInputs load_map(const ScenarioValues& values, const ScenarioChoices& cho
   inputs.map_file = choices.map_file ? choices.map_file : values.map_file;
   if (!inputs.map_file) values.node.fail("map", "text");
   inputs.map = road::read_lanelet_map(*inputs.map_file);
+  inputs.map_obstacles = road::read_map_obstacles(*inputs.map_file);
   return inputs;
 }
 

@@ -7,6 +7,7 @@
 
 #include "planner/automaton/subgraph.hpp"
 #include "planner/road/lanelet_map.hpp"
+#include "planner/road/map_obstacles.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "planner/scenario/scenario_values.hpp"
 #include "planner/vehicle/lab_limits.hpp"
@@ -17,6 +18,7 @@ namespace hlc::scenario {
 struct ScenarioInputs {
   std::optional<std::filesystem::path> map_file;  ///< none: a scenario without lanes
   std::optional<road::LaneletMap> map;
+  std::vector<road::MapObstacle> map_obstacles;  ///< what stands on it
   std::shared_ptr<const automaton::Subgraph> subgraph;
   std::optional<vehicle::LabLimits> lab;
 };

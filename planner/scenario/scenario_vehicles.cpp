@@ -231,10 +231,15 @@ void add_cars_on_circle(const CircleValues& circle, std::size_t cars, Scenario& 
 void check_starts(const ScenarioValues& values, const Scenario& scenario) {
   if (const auto inside = start_in_obstacle(scenario)) {
     const ScenarioVehicle& vehicle = scenario.vehicles[inside->first];
-    values.obstacles[inside->second].node.fail(
-        "name", fmt::format("clear of the footprint with margin of vehicle {} ({}) at its start, "
-                            "({:.3f}, {:.3f})",
-                            vehicle.id.value, vehicle.name, vehicle.start.x_m, vehicle.start.y_m));
+    const std::string clear = fmt::format(
+        "clear of the footprint with margin of vehicle {} ({}) at its start, ({:.3f}, "
+        "{:.3f})",
+        vehicle.id.value, vehicle.name, vehicle.start.x_m, vehicle.start.y_m);
+    if (inside->second < values.obstacles.size()) {
+      values.obstacles[inside->second].node.fail("name", clear);
+    }
+    throw std::invalid_argument(fmt::format("{}: {}, must be {}", scenario.map_file->string(),
+                                            scenario.obstacles[inside->second].name, clear));
   }
   const auto overlap = overlapping_starts(scenario);
   if (!overlap) return;

@@ -37,6 +37,10 @@ const std::string kBegin = "{name: x, steps: 1, automaton: a, subgraph: s, ";
 const std::string kRoutes = "routes: [{name: r, lanelets: {M: [1]}}], ";
 const std::string kVehicles = kRoutes + "vehicles: [{id: 1, route: r, start_m: 0}], ";
 
+std::string with_obstacle(const std::string& obstacle) {
+  return kBegin + kVehicles + "obstacles: [" + obstacle + "]}";
+}
+
 std::string with_policy(const std::string& policy) {
   return kBegin + kVehicles + "policies: {p: " + policy + "}}";
 }
@@ -49,6 +53,11 @@ const std::vector<Place>& places() {
        {kBegin + kVehicles + "zz: 1}", kBegin + kRoutes + "draw: {cars: 1, routes: [r]}, zz: 1}",
         kBegin + "circle: {cars: 1, radius_m: 1, centre_x_m: 0, centre_y_m: 0}, zz: 1}"}},
       {"priorities", {kBegin + kVehicles + "priorities: {zz: 1}}"}},
+      {"obstacle", {with_obstacle("{name: a, zz: 1}")}},
+      {"rectangle",
+       {with_obstacle("{name: a, rectangle: {x_m: 0, y_m: 0, length_m: 1, width_m: 1, zz: 1}}")}},
+      {"disc", {with_obstacle("{name: a, circle: {x_m: 0, y_m: 0, radius_m: 1, zz: 1}}")}},
+      {"area", {kBegin + kRoutes + "vehicles: [{id: 1, route: r, start_m: 0, goal: {zz: 1}}]}"}},
       {"circle", {kBegin + "circle: {cars: 1, radius_m: 1, centre_x_m: 0, centre_y_m: 0, zz: 1}}"}},
       {"route",
        {kBegin + "routes: [{name: r, lanelets: {M: [1]}, zz: 1}]}",
