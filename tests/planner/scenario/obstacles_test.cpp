@@ -1,9 +1,11 @@
 // The obstacles of a scenario: what is refused, and who knows of them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "planner/common/text_file.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "planner/scenario/starts.hpp"
 #include "tests/planner/scenario/changed_scenario.hpp"
@@ -48,6 +50,50 @@ TEST(Obstacles, NamesAreThereAndUniqueAndNotMoreThanAHundred) {
   }
   EXPECT_THAT(test::error_of_scenario("circle", many),
               HasSubstr("must be a list of at most 100, got 101"));
+}
+
+/// The paper's three cars on their map with a further element.
+Scenario on_map_with(const std::string& element) {
+  std::string map = read_file(kFolder + "maps/lab_like.xml");
+  map.insert(map.rfind("</commonRoad>"), element);
+  const test::TemporaryFolder folder;
+  write_file(folder / "map.xml", map);
+  return read_scenario(
+      {.file = kFolder + "scenarios/paper_three_cars.yaml", .map_file = folder / "map.xml"});
+}
+
+std::string parked_at(double x_m, double y_m) {
+  return fmt::format(
+      "<staticObstacle id=\"4711\"><type>parkedVehicle</type><shape><rectangle><length>0.2</length>"
+      "<width>0.1</width></rectangle></shape><initialState><position><point><x>{}</x><y>{}</y>"
+      "</point></position><orientation><exact>0</exact></orientation><time><exact>0</exact></time>"
+      "</initialState></staticObstacle>",
+      x_m, y_m);
+}
+
+// A car drove through a parked vehicle of the file.
+TEST(Obstacles, OfTheMapStandInTheScenario) {
+  const Scenario scenario = on_map_with(parked_at(2.25, 2.0));
+  ASSERT_EQ(scenario.obstacles.size(), 1U);
+  EXPECT_EQ(scenario.obstacles[0].name, "parkedVehicle 4711");
+  EXPECT_TRUE(make_controller(scenario, {1})->has_obstacles());
+}
+
+TEST(Obstacles, OfTheMapAreRefusedInAStartOrIfTheyMove) {
+  const auto refusal = [](const std::string& element) {
+    try {
+      static_cast<void>(on_map_with(element));
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const Pose start = on_map_with("").vehicles.at(1).start;
+  EXPECT_THAT(refusal(parked_at(start.x_m, start.y_m)),
+              AllOf(HasSubstr("map.xml: parkedVehicle 4711, must be clear of"),
+                    HasSubstr("vehicle 2 (blue)")));
+  EXPECT_THAT(refusal("<dynamicObstacle id=\"4712\"/>"),
+              HasSubstr("<dynamicObstacle> \"4712\": is not regarded, must be absent"));
 }
 
 TEST(Obstacles, AStartInAnObstacleIsRefusedAndBothAreNamed) {
