@@ -22,9 +22,10 @@ struct MapObstacle {
 /// Reads the static obstacles of a CommonRoad file: <staticObstacle> (2020a), or <obstacle> of
 /// <role> static (2018b), each at the exact position and orientation of its initial state.
 ///
-/// What a car would have to regard and does not is refused by its name: obstacles that move, areas
-/// of the environment, traffic lights and signs. Skipped is what does not change the road:
-/// intersections, tags, the location, planning problems (whose vehicle is not the scenario's).
+/// Refused by their names are obstacles that move or are unknown, areas of the environment, traffic
+/// lights and signs, since no car regards them. All else is skipped: intersections, tags, the
+/// location, planning problems (whose vehicle is not the scenario's), and within lanelets their
+/// types, stop lines and speed limits.
 /// @throws std::runtime_error one line, `file:line: fault and bound`
 [[nodiscard]] std::vector<MapObstacle> read_map_obstacles(const std::filesystem::path& file);
 

@@ -120,13 +120,17 @@ void look_beyond(const DrivableRoute& route, const std::vector<Point>& outline_m
   }
 }
 
+/// What a place behind must be better by, about a lane's width: a car that stands at the end of an
+/// open path which ends where it began stays there.
+constexpr double kBehind_m = 0.15;
+
 /// True if the place counts instead of the best one so far: if it is better, and not only a little
 /// where the path drives the same lane again.
 /// @param is_behind  the place lies behind the others on an open path
 bool replaces(const Placement& place, const Placement& best, const ReferencePath& path,
               bool is_behind) {
   const double gain_m = placement_cost_m(best) - placement_cost_m(place);
-  if (gain_m <= (is_behind ? kFitsBeyond_m : 0.0)) return false;
+  if (gain_m <= (is_behind ? kBehind_m : 0.0)) return false;
   return gain_m > kSameLane_m || !drives_again(path, best.s_m, place.s_m);
 }
 

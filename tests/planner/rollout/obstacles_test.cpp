@@ -1,7 +1,6 @@
 // Cars among random obstacles: no plan in force meets an obstacle or another car's plan.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -39,14 +38,11 @@ std::vector<scenario::ScenarioObstacle> random_obstacles(const scenario::Scenari
   return with.obstacles;
 }
 
-/// The plans' areas from the step on, the area of the standstill included.
-std::vector<ConvexPolygon> areas_of(const coordination::Plan& plan, StepIndex from,
-                                    const vehicle::VehicleParameters& vehicle) {
-  std::vector<ConvexPolygon> areas_m;
-  for (StepIndex step = from; step <= std::max(from, plan.end()); ++step.value) {
-    areas_m.push_back(
-        footprint_area(vehicle.footprint, plan.pose_at(step), vehicle.safety_margin_m));
-  }
+/// What the plan sweeps from the step on, and where it stands at its end.
+std::vector<ConvexPolygon> areas_of(const coordination::Plan& plan, StepIndex from) {
+  const coordination::OccupiedAreas areas = plan.areas_from(from);
+  std::vector<ConvexPolygon> areas_m(areas.areas_m.begin(), areas.areas_m.end());
+  areas_m.push_back(areas.final_area_m);
   return areas_m;
 }
 
@@ -55,7 +51,7 @@ void expect_clear(const Rollout& rollout, const scenario::Scenario& scenario) {
   std::vector<ConvexPolygon> cars_m;
   for (const auto& controller : rollout.controllers()) {
     const coordination::Plan& plan = controller->plan_in_force();
-    for (const ConvexPolygon& area_m : areas_of(plan, rollout.next_step(), vehicle)) {
+    for (const ConvexPolygon& area_m : areas_of(plan, rollout.next_step())) {
       for (const scenario::ScenarioObstacle& one : scenario.obstacles) {
         EXPECT_FALSE(intersects(area_m, one.area_m))
             << "vehicle " << int{controller->options().vehicle.value};
