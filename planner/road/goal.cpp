@@ -82,8 +82,9 @@ ReferencePath path_until(const ReferencePath& path, double end_s_m) {
   std::vector<Point> points_m;
   const std::size_t num_points = path.points_m().size();
   for (std::size_t k = 0; path.is_closed() || k < num_points; ++k) {
+    const std::size_t laps = k / num_points;
     const double s_m =
-        path.joints_s_m()[k % num_points] + static_cast<double>(k / num_points) * path.length_m();
+        path.joints_s_m()[k % num_points] + static_cast<double>(laps) * path.length_m();
     if (s_m > end_s_m - kJoint_m) break;
     points_m.push_back(path.points_m()[k % num_points]);
   }
@@ -94,8 +95,8 @@ ReferencePath path_until(const ReferencePath& path, double end_s_m) {
 bool is_at_goal(const ReferencePath& path, const std::optional<Goal>& goal, double s_m,
                 const Pose& pose, const Footprint& footprint) {
   if (path.is_closed()) return false;
-  if (goal) {
-    return s_m >= goal->from_s_m - kPlace_m && contains(goal->area_m, pose.position_m());
+  if (goal && s_m >= goal->from_s_m - kPlace_m && contains(goal->area_m, pose.position_m())) {
+    return true;
   }
   const double end_s_m = path.length_m();
   return s_m >= end_s_m - footprint.length_m &&

@@ -30,8 +30,8 @@ struct Stretch {
 /// are counted on. @pre end_s_m > 0, on an open path <= length
 [[nodiscard]] ReferencePath path_until(const ReferencePath& path, double end_s_m);
 
-/// Whether a vehicle that stands at the pose has arrived at the end of the path: with a goal, its
-/// position is in the region; without one, its footprint covers the end. On a closed path never.
+/// Whether a vehicle that stands at the pose has arrived at the end of the path: its footprint
+/// covers the end or, with a goal, its position is in the region. On a closed path never.
 /// @param s_m  its place on the path: a region or an end that the path passes before does not count
 [[nodiscard]] bool is_at_goal(const ReferencePath& path, const std::optional<Goal>& goal,
                               double s_m, const Pose& pose, const Footprint& footprint);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -64,7 +65,9 @@ TEST(FirstStretch, OfRandomAreasIsInThemAndTheFirst) {
     const auto found = first_stretch_in(path, area_m, start_s_m);
     const double until_s_m = found ? found->from_s_m : start_s_m + path.length_m();
     bool has_left = false;
-    for (double s_m = start_s_m; s_m < until_s_m - 1e-6; s_m += 0.01) {
+    const auto steps = static_cast<int>(std::ceil((until_s_m - 1e-6 - start_s_m) / 0.01));
+    for (int i = 0; i < steps; ++i) {
+      const double s_m = start_s_m + 0.01 * i;
       const bool is_in = contains(area_m, path.at(s_m));
       has_left |= !is_in;
       EXPECT_FALSE(is_in && has_left) << s_m;
@@ -112,6 +115,14 @@ TEST(Goal, WithARegionIsReachedAnywhereInItAtTheEndOfThePath) {
   EXPECT_FALSE(is_at_goal(line, goal, 1.4, {1.4, 0.0, 0.0}, kCar));
   EXPECT_FALSE(is_at_goal(line, goal, 1.6, {1.6, 0.25, 0.0}, kCar));
   EXPECT_FALSE(is_at_goal(line, goal, 0.3, {1.6, 0.0, 0.0}, kCar)) << "another strand of the path";
+}
+
+// The places where a car can stand are some centimetres apart.
+TEST(Goal, WithARegionTooSmallToStandInIsReachedWhereTheFootprintCoversItsMiddle) {
+  const ReferencePath line({{0.0, 0.0}, {2.0, 0.0}}, false);
+  const Goal goal{.area_m = box(1.99, 2.01, -0.01, 0.01), .from_s_m = 1.99};
+  EXPECT_TRUE(is_at_goal(line, goal, 1.93, {1.93, 0.03, 0.0}, kCar));
+  EXPECT_FALSE(is_at_goal(line, goal, 1.85, {1.85, 0.0, 0.0}, kCar));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ std::string with_policy(const std::string& policy) {
 std::string with_rule(const std::string& rule) { return with_policy("{rules: [" + rule + "]}"); }
 
 const std::vector<Place>& places() {
-  static const std::vector<Place> all{
+  static const std::vector<Place> kAll{
       {"scenario",
        {kBegin + kVehicles + "zz: 1}", kBegin + kRoutes + "draw: {cars: 1, routes: [r]}, zz: 1}",
         kBegin + "circle: {cars: 1, radius_m: 1, centre_x_m: 0, centre_y_m: 0}, zz: 1}"}},
@@ -76,13 +76,13 @@ const std::vector<Place>& places() {
       {"battery", {with_rule("{battery: {below_v: 7, request: {}, zz: 1}}")}},
       {"look_ahead",
        {with_rule("{look_ahead: {candidates: [{}, {}], max_expansions: 1, zz: 1}}")}}};
-  return all;
+  return kAll;
 }
 
 const nlohmann::json& schema() {
-  static const nlohmann::json json = nlohmann::json::parse(
+  static const nlohmann::json kSchema = nlohmann::json::parse(
       read_file(test::source_folder() + "/launch_scripts/scenarios/schema.json"));
-  return json;
+  return kSchema;
 }
 
 const nlohmann::json& object_of(const std::string& name) {
