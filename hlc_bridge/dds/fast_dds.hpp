@@ -76,7 +76,8 @@ class DiscoveryListener : private fdds::DomainParticipantListener {
   virtual void on_found(const FoundParticipant& participant) = 0;
   /// With DDS security: the participant has proven its identity.
   virtual void on_authenticated(const frtps::GuidPrefix_t& participant) = 0;
-  /// With DDS security: it has not. Again with each of its attempts.
+  /// With DDS security: it has no identity. Again with each of its attempts. Of one whose handshake
+  /// fails, since it has an identity of another authority, the library reports nothing.
   virtual void on_refused(const frtps::GuidPrefix_t& participant) = 0;
   virtual void on_found(const FoundEndpoint& endpoint) = 0;
 

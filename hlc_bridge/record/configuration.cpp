@@ -90,6 +90,13 @@ std::optional<std::string> text_or_null(const Node& flags, const std::string& ke
   return flags.is_value(key) ? std::optional(flags.required<std::string>(key)) : std::nullopt;
 }
 
+/// The copy of the file that is named, or the file.
+fs::path kept_file(const fs::path& run_folder, const Node& flags, const std::string& key) {
+  const auto path = flags.required<std::string>(key);
+  if (path.empty()) flags.fail(key, "a path");
+  return copy_or_original(run_folder, path);
+}
+
 }  // namespace
 
 void keep_configuration(const fs::path& run_folder, const std::vector<fs::path>& files) {
@@ -125,15 +132,13 @@ scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
   }
   const Node flags = Node::read_yaml(file);
   scenario::ScenarioChoices choices;
-  choices.file = copy_or_original(run_folder, flags.required<std::string>("scenario"));
+  choices.file = kept_file(run_folder, flags, "scenario");
   choices.profile = flags.required<std::string>("profile");
   choices.engine = text_or_null(flags, "engine");
   choices.priorities = text_or_null(flags, "priorities");
   choices.subgraph = text_or_null(flags, "subgraph");
   choices.policy = text_or_null(flags, "policy");
-  if (const auto map = text_or_null(flags, "map")) {
-    choices.map_file = copy_or_original(run_folder, *map);
-  }
+  if (flags.is_value("map")) choices.map_file = kept_file(run_folder, flags, "map");
   if (flags.is_value("cars")) choices.cars = flags.required<std::size_t>("cars");
   if (flags.is_value("seed")) choices.seed = flags.required<std::size_t>("seed");
   choices.routes = text_or_null(flags, "routes");

@@ -11,6 +11,7 @@
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/road/lanelet_map.hpp"
+#include "planner/road/map_obstacles.hpp"
 #include "planner/scenario/lab_file.hpp"
 #include "planner/scenario/scenario_values.hpp"
 #include "tests/fuzz/in_file.hpp"
@@ -20,11 +21,11 @@
 namespace hlc::fuzz {
 namespace {
 
-std::vector<std::string> shipped(const std::string& folder) {
+std::vector<std::string> shipped(const std::string& folder, const std::string& extension) {
   std::vector<std::string> texts;
   const auto root = std::filesystem::path(test::source_folder()) / "launch_scripts" / folder;
   for (const auto& entry : std::filesystem::directory_iterator(root)) {
-    if (entry.path().extension() != ".md") texts.push_back(read_file(entry.path()));
+    if (entry.path().extension() == extension) texts.push_back(read_file(entry.path()));
   }
   return texts;
 }
@@ -66,28 +67,31 @@ std::vector<Target> planner_file_targets() {
   return {
       {"yaml",
        [](std::string_view bytes) { static_cast<void>(parse_yaml(std::string(bytes), "input")); },
-       [] { return shipped("automata"); }},
+       [] { return shipped("automata", ".yaml"); }},
       {"json",
        [](std::string_view bytes) {
          std::istringstream stream{std::string(bytes)};
          static_cast<void>(parse_json(stream, "input"));
        },
-       [] { return shipped("problems"); }},
+       [] { return shipped("problems", ".json"); }},
       {"map",
-       [](std::string_view bytes) { static_cast<void>(road::parse_lanelet_map(bytes, "input")); },
-       [] { return shipped("maps"); }},
+       [](std::string_view bytes) {
+         static_cast<void>(road::parse_map_obstacles(bytes, "input"));
+         static_cast<void>(road::parse_lanelet_map(bytes, "input"));
+       },
+       [] { return shipped("maps", ".xml"); }},
       {"scenario",
        [](std::string_view bytes) {
          const Node node = Node::parse_yaml(std::string(bytes), "input");
          static_cast<void>(scenario::parse_scenario(node, "input"));
        },
-       [] { return shipped("scenarios"); }},
+       [] { return shipped("scenarios", ".yaml"); }},
       {"lab", in_file([](const auto& file) { static_cast<void>(scenario::read_lab(file, 0.2)); }),
-       [] { return shipped("labs"); }},
+       [] { return shipped("labs", ".yaml"); }},
       {"configuration", in_file([](const auto& file) {
          static_cast<void>(maneuver_design::read_automaton_configuration(file));
        }),
-       [] { return shipped("automata"); }},
+       [] { return shipped("automata", ".yaml"); }},
       {"automaton",
        [](std::string_view bytes) {
          in_new_file("input", with_its_hash(bytes), [](const auto& file) {

@@ -121,7 +121,7 @@ std::vector<Target> run_file_targets() {
           [folder_of](const fs::path& file) {
             static_cast<void>(record::kept_choices(folder_of(file)));
           },
-          record::flags_yaml({.file = "circle.yaml"})),
+          record::flags_yaml({.file = "/scenarios/circle.yaml"})),
       of_file(
           "forks", kRun / "forks.yaml",
           [folder_of](const fs::path& file) {

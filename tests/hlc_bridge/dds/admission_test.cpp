@@ -29,6 +29,7 @@ class Admission : public testing::Test {
     auto record = sample<ReportRecord>(random);
     record.report.step = {step};
     record.report.waiting = {};
+    record.report.arrived_since = {};
     record.report.plan.assign(100, {.to = {0}, .label = std::string(bytes / 100, 'l')});
     ASSERT_TRUE(writer_.write(record));
   }

@@ -221,9 +221,7 @@ TEST_F(SecurityOnADomain, ConnectsItsOwnParticipantsAndNoOther) {
   EXPECT_THAT(read_by_foreigner.now(), testing::IsEmpty());
   EXPECT_EQ(second.alive(), std::set<std::string>{"high_level_controller_3"});
   EXPECT_EQ(third.alive(), std::set<std::string>{"high_level_controller_2"});
-  EXPECT_THAT(log_lines(2), testing::UnorderedElementsAre(
-                                testing::ContainsRegex("\"stranger\" .* refused"),
-                                testing::ContainsRegex("\"high_level_controller_2\" .* refused")));
+  EXPECT_THAT(log_lines(1), testing::Contains(testing::ContainsRegex("\"stranger\" .* refused")));
 }
 
 TEST_F(SecurityOnADomain, LetsAParticipantPublishAndReadItsOwnTopicsOnly) {

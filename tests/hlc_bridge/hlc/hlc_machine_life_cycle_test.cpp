@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
+#include "planner/geometry/footprint.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/hlc_bridge/hlc/driven_machine.hpp"
 #include "tests/support/folders.hpp"
@@ -321,8 +322,12 @@ TEST(HlcMachineStart, JoinsARunningExperimentOnceItsVehicleStands) {
   DrivenMachine one(real_time());
   std::vector<coordination::MeasuredVehicle> both{seen(1, 0.0, 0.0, 0.5), seen(2, 0.0, 5.0)};
   const auto next_list = [&] {
-    one.on(traffic_of(2, one.step() + 1));
     one.next_list(both);
+    const ConvexPolygon there = footprint_area({1.0, 1.0}, {0.0, 5.0, 0.0});
+    one.on(coordination::Traffic{.vehicle = {2},
+                                 .step = {one.step()},
+                                 .running = {.first = {one.step()}, .final_area_m = there},
+                                 .reachable_area_m = there});
   };
   one.on(peers({2}));
   for (int i = 0; i < 20; ++i) next_list();

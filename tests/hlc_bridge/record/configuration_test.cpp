@@ -34,6 +34,21 @@ TEST(Configuration, MissingFileIsNamed) {
               ThrowsMessage<std::runtime_error>(HasSubstr("nothing.yaml: cannot be read")));
 }
 
+// It ended the program with the library's words, "cannot make absolute path".
+TEST(Configuration, AnEmptyPathInTheFlagsOfARunIsRefusedByItsKey) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "configuration");
+  const std::string flags = flags_yaml({.file = "/s.yaml", .map_file = "/m.xml"});
+  for (const auto& [path, key] : {std::pair("/s.yaml", "scenario"), std::pair("/m.xml", "map")}) {
+    std::string text = flags;
+    text.erase(text.find(path), std::string(path).size());
+    test::put(folder / "configuration" / "flags.yaml", text);
+    EXPECT_THAT([&] { static_cast<void>(kept_choices(folder.path())); },
+                testing::ThrowsMessage<std::invalid_argument>(
+                    testing::HasSubstr(std::string(key) + " = , must be a path")));
+  }
+}
+
 TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
   const test::TemporaryFolder folder;
   const std::filesystem::path configuration = folder / "configuration";

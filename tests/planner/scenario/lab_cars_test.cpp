@@ -278,9 +278,9 @@ std::string error_of_random(const std::string& routes, const std::string& vehicl
 TEST(RandomRoutes, OfAScenarioBeginInTheVehiclesLanelets) {
   EXPECT_EQ(error_of_random("random", "lanelet: 22, start_m: 0.1"), "");
   EXPECT_THAT(error_of_random("some", "lanelet: 22, start_m: 0.1"),
-              HasSubstr(".yaml:8: routes = some, must be random"));
+              HasSubstr(".yaml:7: routes = some, must be random"));
   EXPECT_THAT(error_of_random("random", "lanelet: 999, start_m: 0.1"),
-              AllOf(HasSubstr(".yaml:10: vehicles[1].lanelet = 999, must be a lanelet of the map"),
+              AllOf(HasSubstr(".yaml:9: vehicles[1].lanelet = 999, must be a lanelet of the map"),
                     HasSubstr("999 is not in the map")));
   EXPECT_THAT(error_of_random("random", "lanelet: 22, start_m: 5"), HasSubstr("start_m = 5"));
   EXPECT_THAT(error_of_random("random", "route: red, start_m: 5"), HasSubstr("lanelet"));
