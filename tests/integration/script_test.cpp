@@ -421,7 +421,9 @@ TEST_F(Scripts, LogicalTimeDoesNotGoOnAfterADeath) {
 
 TEST_F(Scripts, ALabControlThatHangsIsEnded) {
   const std::filesystem::path out = folder_ / "run";
-  ChildProcess run = run_lab({"--steps", "5000", "--out", out.string()});
+  // It is given its startup timeout, and some seconds.
+  ChildProcess run =
+      run_lab({"--steps", "5000", "--startup_timeout_s", "20", "--out", out.string()});
   ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 4000; }))
       << output();
   const std::optional<pid_t> lab_control = child_of(run.pid(), "lab_control");
