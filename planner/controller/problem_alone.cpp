@@ -87,9 +87,11 @@ search::HorizonProblem one_step_later(search::HorizonProblem problem,
     std::ranges::rotate(problem.contouring, problem.contouring.begin() + 1);
     problem.contouring.back() = problem.contouring[problem.contouring.size() - 2];
   }
-  if (problem.obstacles_m.empty()) return problem;
-  std::ranges::rotate(problem.obstacles_m, problem.obstacles_m.begin() + 1);
-  problem.obstacles_m.back() = problem.obstacles_m[problem.obstacles_m.size() - 2];
+  for (auto* const areas_m : {&problem.obstacles_m, &problem.avoided_in_motion_m}) {
+    if (areas_m->empty()) continue;
+    std::ranges::rotate(*areas_m, areas_m->begin() + 1);
+    areas_m->back() = (*areas_m)[areas_m->size() - 2];
+  }
   return problem;
 }
 

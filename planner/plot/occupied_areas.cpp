@@ -15,13 +15,15 @@ std::size_t index_of(const ConvexPolygon& area_m, const std::vector<OccupiedArea
 
 std::vector<OccupiedArea> different_areas(const search::HorizonProblem& problem) {
   std::vector<OccupiedArea> areas;
-  for (std::size_t j = 0; j < problem.obstacles_m.size(); ++j) {
-    for (const ConvexPolygon& area_m : problem.obstacles_m[j]) {
-      if (area_m.empty()) continue;
-      const std::size_t index = index_of(area_m, areas);
-      if (index == areas.size()) areas.push_back({.area_m = area_m, .steps = {}});
-      std::vector<std::size_t>& steps = areas[index].steps;
-      if (steps.empty() || steps.back() != j + 1) steps.push_back(j + 1);
+  for (const auto* const of_steps : {&problem.obstacles_m, &problem.avoided_in_motion_m}) {
+    for (std::size_t j = 0; j < of_steps->size(); ++j) {
+      for (const ConvexPolygon& area_m : (*of_steps)[j]) {
+        if (area_m.empty()) continue;
+        const std::size_t index = index_of(area_m, areas);
+        if (index == areas.size()) areas.push_back({.area_m = area_m, .steps = {}});
+        std::vector<std::size_t>& steps = areas[index].steps;
+        if (steps.empty() || steps.back() != j + 1) steps.push_back(j + 1);
+      }
     }
   }
   return areas;
@@ -32,7 +34,7 @@ std::vector<OccupiedArea> different_areas(const search::HorizonProblem& problem)
 std::string OccupiedAreas::name_of(const search::Obstruction& obstruction, std::size_t step,
                                    const search::HorizonProblem& problem) const {
   if (!obstruction.obstacle) return "the boundary";
-  const ConvexPolygon& area_m = problem.obstacles_m[step - 1][*obstruction.obstacle];
+  const ConvexPolygon& area_m = problem.area_m(step, *obstruction.obstacle);
   return fmt::format("area {}", index_of(area_m, areas) + 1);
 }
 
@@ -48,7 +50,7 @@ OccupiedAreas occupied_areas(const search::HorizonProblem& problem,
       ++occupied.dropped_by_boundary;
       continue;
     }
-    const ConvexPolygon& area_m = problem.obstacles_m[vertex.depth - 1][*met->obstacle];
+    const ConvexPolygon& area_m = problem.area_m(vertex.depth, *met->obstacle);
     ++occupied.areas[index_of(area_m, occupied.areas)].dropped;
   }
   return occupied;

@@ -38,10 +38,14 @@ Json vehicle_of(const search::HorizonProblem& problem, const search::SearchResul
   for (const Segment& segment : problem.boundary_m) {
     json["boundary"].push_back(json_points(std::array{segment.from_m, segment.to_m}));
   }
-  for (const std::vector<ConvexPolygon>& of_step : problem.obstacles_m) {
+  const bool has_areas = !problem.obstacles_m.empty() || !problem.avoided_in_motion_m.empty();
+  for (std::size_t j = 0; has_areas && j < problem.horizon_steps(); ++j) {
     Json areas = Json::array();
-    for (const ConvexPolygon& area_m : of_step) {
-      if (!area_m.empty()) areas.push_back(json_points(area_m.vertices_m));
+    for (const auto* const of_steps : {&problem.obstacles_m, &problem.avoided_in_motion_m}) {
+      if (of_steps->empty()) continue;
+      for (const ConvexPolygon& area_m : (*of_steps)[j]) {
+        if (!area_m.empty()) areas.push_back(json_points(area_m.vertices_m));
+      }
     }
     json["obstacles"].push_back(std::move(areas));
   }

@@ -45,7 +45,7 @@ JointProblemFile read_joint_problem_file(
   }
   for (const Node& vehicle : vehicles) {
     vehicle.check_keys({"start", "reference", "contouring", "reference_speed", "obstacles",
-                        "corridor", "avoids_steering_limit", "incumbent"});
+                        "avoided_in_motion", "corridor", "avoids_steering_limit", "incumbent"});
     problems.push_back(read_problem(vehicle, frame));
   }
   return {.automaton_file = std::move(frame.automaton_file),

@@ -16,7 +16,7 @@ namespace {
 Node read_root(const std::filesystem::path& path) {
   Node root = Node::read_json(path);
   root.check_keys({"automaton", "subgraph", "horizon_steps", "step_s", "start", "reference",
-                   "contouring", "reference_speed", "obstacles", "corridor",
+                   "contouring", "reference_speed", "obstacles", "avoided_in_motion", "corridor",
                    "avoids_steering_limit", "incumbent", "search"});
   return root;
 }

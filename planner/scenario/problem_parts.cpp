@@ -249,6 +249,10 @@ search::HorizonProblem read_problem(const Node& node, const ProblemFrame& frame)
     auto& areas_m = problem.obstacles_m.emplace_back();
     for (const Node& area : entry.entries()) areas_m.push_back(read_polygon(area));
   }
+  for (const Node& entry : node.optional_list("avoided_in_motion", n, per_step)) {
+    auto& areas_m = problem.avoided_in_motion_m.emplace_back();
+    for (const Node& area : entry.entries()) areas_m.push_back(read_polygon(area));
+  }
   for (const Node& entry : node.optional_list("corridor")) {
     problem.boundary_m.push_back(read_segment(entry));
   }
@@ -275,6 +279,9 @@ void write_problem(const search::HorizonProblem& problem, Json& root) {
     root["reference_speed"] = list(problem.reference_speed_mps, number);
   }
   if (!problem.obstacles_m.empty()) root["obstacles"] = list(problem.obstacles_m, step_obstacles);
+  if (!problem.avoided_in_motion_m.empty()) {
+    root["avoided_in_motion"] = list(problem.avoided_in_motion_m, step_obstacles);
+  }
   if (!problem.boundary_m.empty()) {
     root["corridor"] = list(problem.boundary_m, [](const Segment& segment) {
       return Json::array({point(segment.from_m), point(segment.to_m)});

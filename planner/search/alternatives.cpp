@@ -26,6 +26,7 @@ HorizonProblem behind(const automaton::Maneuver& first, const HorizonProblem& pr
   drop_first(rest.contouring);
   drop_first(rest.reference_speed_mps);
   drop_first(rest.obstacles_m);
+  drop_first(rest.avoided_in_motion_m);
   rest.incumbent.clear();
   return rest;
 }

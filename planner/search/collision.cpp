@@ -33,13 +33,22 @@ Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed
 std::optional<Obstruction> obstruction_of(const automaton::Maneuver& maneuver, std::size_t step,
                                           const Frame& start, const HorizonProblem& problem) {
   ConvexPolygon placed;
+  place(maneuver.swept_area_m, start, placed);
+  const auto meets = [&placed](const ConvexPolygon& area_m) {
+    return !area_m.empty() && intersects(placed, area_m);
+  };
+  std::size_t before = 0;
   if (!problem.obstacles_m.empty()) {
-    place(maneuver.swept_area_m, start, placed);
-    const std::vector<ConvexPolygon>& obstacles_m = problem.obstacles_m[step - 1];
-    for (std::size_t i = 0; i < obstacles_m.size(); ++i) {
-      if (!obstacles_m[i].empty() && intersects(placed, obstacles_m[i])) {
-        return Obstruction{.obstacle = i};
-      }
+    const std::vector<ConvexPolygon>& areas_m = problem.obstacles_m[step - 1];
+    const auto met = std::ranges::find_if(areas_m, meets);
+    before = static_cast<std::size_t>(met - areas_m.begin());
+    if (met != areas_m.end()) return Obstruction{.obstacle = before};
+  }
+  if (!problem.avoided_in_motion_m.empty() && !stands_in(maneuver)) {
+    const std::vector<ConvexPolygon>& areas_m = problem.avoided_in_motion_m[step - 1];
+    const auto met = std::ranges::find_if(areas_m, meets);
+    if (met != areas_m.end()) {
+      return Obstruction{.obstacle = before + static_cast<std::size_t>(met - areas_m.begin())};
     }
   }
   place(maneuver.lane_area_m, start, placed);
@@ -69,23 +78,29 @@ void CollisionCheck::prepare(const HorizonProblem& problem) {
   const std::size_t horizon_steps = problem.horizon_steps();
   HLC_DEMAND(problem.obstacles_m.empty() || problem.obstacles_m.size() == horizon_steps,
              problem.obstacles_m.size(), horizon_steps);
+  HLC_DEMAND(
+      problem.avoided_in_motion_m.empty() || problem.avoided_in_motion_m.size() == horizon_steps,
+      problem.avoided_in_motion_m.size(), horizon_steps);
 
   // Rounding must not drop an area that only just touches.
   constexpr double kSlackM = 1e-6;
   const Point start_m = problem.start.position_m();
   double farthest_m = 0.0;
   obstacles_.resize(horizon_steps);
+  avoided_in_motion_.resize(horizon_steps);
   for (std::size_t step = 1; step <= horizon_steps; ++step) {
     const double before_m =
         reachable_.max_distance_m(problem.start_trim, step - 1, horizon_steps - (step - 1));
     const double reach_m = before_m + area_radius_m_ + kSlackM;
     farthest_m = std::max(farthest_m, reach_m);
     obstacles_[step - 1].clear();
-    if (problem.obstacles_m.empty()) continue;
-    for (const ConvexPolygon& polygon_m : problem.obstacles_m[step - 1]) {
-      const Box box = bounding_box(polygon_m);
-      if (!polygon_m.empty() && distance_m(box, start_m) <= reach_m)
-        obstacles_[step - 1].push_back({box, &polygon_m});
+    avoided_in_motion_[step - 1].clear();
+    if (!problem.obstacles_m.empty()) {
+      add_obstacles(problem.obstacles_m[step - 1], start_m, reach_m, obstacles_[step - 1]);
+    }
+    if (!problem.avoided_in_motion_m.empty()) {
+      add_obstacles(problem.avoided_in_motion_m[step - 1], start_m, reach_m,
+                    avoided_in_motion_[step - 1]);
     }
   }
   boundary_.clear();
@@ -95,20 +110,31 @@ void CollisionCheck::prepare(const HorizonProblem& problem) {
   }
 }
 
-bool CollisionCheck::is_free(const automaton::Maneuver& maneuver, std::size_t step,
-                             const Frame& start) {
-  return !meets_obstacle(maneuver.swept_area_m, step, start) &&
-         !meets_boundary(maneuver.lane_area_m, start);
+void CollisionCheck::add_obstacles(const std::vector<ConvexPolygon>& areas_m, const Point& start_m,
+                                   double reach_m, std::vector<Obstacle>& obstacles) const {
+  for (const ConvexPolygon& polygon_m : areas_m) {
+    const Box box = bounding_box(polygon_m);
+    if (!polygon_m.empty() && distance_m(box, start_m) <= reach_m)
+      obstacles.push_back({box, &polygon_m});
+  }
 }
 
-bool CollisionCheck::meets_obstacle(const ConvexPolygon& area_m, std::size_t step,
+bool CollisionCheck::is_free(const automaton::Maneuver& maneuver, std::size_t step,
+                             const Frame& start) {
+  return !meets_obstacle(maneuver, step, start) && !meets_boundary(maneuver.lane_area_m, start);
+}
+
+bool CollisionCheck::meets_obstacle(const automaton::Maneuver& maneuver, std::size_t step,
                                     const Frame& start) {
   const std::vector<Obstacle>& obstacles = obstacles_[step - 1];
-  if (obstacles.empty()) return false;
-  const Box box = place(area_m, start, placed_);
-  return std::any_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& obstacle) {
+  const std::vector<Obstacle>& in_motion = avoided_in_motion_[step - 1];
+  if (obstacles.empty() && in_motion.empty()) return false;
+  const Box box = place(maneuver.swept_area_m, start, placed_);
+  const auto meets = [&](const Obstacle& obstacle) {
     return overlap(box, obstacle.box) && intersects(placed_, *obstacle.polygon_m);
-  });
+  };
+  return std::ranges::any_of(obstacles, meets) ||
+         (!stands_in(maneuver) && std::ranges::any_of(in_motion, meets));
 }
 
 bool CollisionCheck::meets_boundary(const ConvexPolygon& area_m, const Frame& start) {

@@ -18,7 +18,8 @@ Box place(const ConvexPolygon& area_m, const Frame& start, ConvexPolygon& placed
 
 /// The first thing that a maneuver meets: an obstacle of its step, or the boundary.
 struct Obstruction {
-  std::optional<std::size_t> obstacle;  ///< in the step's list, from 0; none: the boundary
+  /// In the step's obstacles, from 0, then those avoided in motion; none: the boundary.
+  std::optional<std::size_t> obstacle;
   friend bool operator==(const Obstruction&, const Obstruction&) = default;
 };
 
@@ -31,7 +32,8 @@ struct Obstruction {
                                                         const HorizonProblem& problem);
 
 /// Collision check of the edges of one search: a maneuver is free in step j if its swept area meets
-/// no obstacle of that step and its lane area crosses no boundary segment.
+/// no obstacle of that step, unless the vehicle stands in it nothing that is avoided in motion, and
+/// its lane area crosses no boundary segment.
 ///
 /// `prepare` is called once per plan: it computes the obstacles' boxes and drops what no edge of
 /// the plan can meet. Dropped are, per step, the obstacles whose box lies farther from the start
@@ -48,7 +50,7 @@ class CollisionCheck {
   CollisionCheck(const automaton::Subgraph& subgraph, const automaton::ReachableSets& reachable);
 
   /// @param problem  must stay unchanged until the last check
-  /// @pre problem.obstacles_m is empty or has one entry per step
+  /// @pre problem.obstacles_m and avoided_in_motion_m are empty or have one entry per step
   void prepare(const HorizonProblem& problem);
 
   /// @param step   1 ... n: the step in which the maneuver is driven
@@ -66,12 +68,15 @@ class CollisionCheck {
     Segment segment;
   };
 
-  [[nodiscard]] bool meets_obstacle(const ConvexPolygon& area_m, std::size_t step,
+  [[nodiscard]] bool meets_obstacle(const automaton::Maneuver& maneuver, std::size_t step,
                                     const Frame& start);
+  void add_obstacles(const std::vector<ConvexPolygon>& areas_m, const Point& start_m,
+                     double reach_m, std::vector<Obstacle>& obstacles) const;
   [[nodiscard]] bool meets_boundary(const ConvexPolygon& area_m, const Frame& start);
   const automaton::ReachableSets& reachable_;
   double area_radius_m_{};  ///< farthest point of any maneuver's area from its start
   std::vector<std::vector<Obstacle>> obstacles_;
+  std::vector<std::vector<Obstacle>> avoided_in_motion_;
   std::vector<BoundaryPiece> boundary_;
   ConvexPolygon placed_;  ///< its capacity holds the largest area
 };

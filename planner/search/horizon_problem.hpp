@@ -12,7 +12,8 @@
 namespace hlc::search {
 
 /// The receding-horizon problem: find n maneuvers (or self-loops of trims) from the start that end
-/// in an equilibrium, whose areas meet no obstacle and cross no boundary, and that minimise
+/// in an equilibrium, whose areas meet no obstacle (while the vehicle moves, none of
+/// `avoided_in_motion_m` either) and cross no boundary, and that minimise
 ///
 ///     sum_{j=1}^{n} || p_j - r_j ||^2 + (c_j . (p_j - r_j))^2   [m^2]
 ///
@@ -34,6 +35,9 @@ struct HorizonProblem {
   std::vector<double> reference_speed_mps;
   /// Areas that are occupied during step j (index j - 1), any number per step; empty: none at all.
   std::vector<std::vector<ConvexPolygon>> obstacles_m;
+  /// Areas that maneuvers may not meet in step j, but that may come to a standing vehicle (passive
+  /// motion safety): the self-loop of an equilibrium (`stands_in`) may meet them. Sizes as above.
+  std::vector<std::vector<ConvexPolygon>> avoided_in_motion_m;
   std::vector<Segment> boundary_m;  ///< of the drivable area, the same for all steps
   /// No step may end in a trim near the steering limit (is_at_steering_limit), where a vehicle may
   /// drift from its plan.
@@ -44,6 +48,12 @@ struct HorizonProblem {
   std::vector<const automaton::Maneuver*> incumbent;
 
   [[nodiscard]] std::size_t horizon_steps() const { return reference_m.size(); }
+  /// Number `index` of the step's obstacles, from 0, then of what it avoids in motion.
+  [[nodiscard]] const ConvexPolygon& area_m(std::size_t step, std::size_t index) const {
+    const std::size_t always = obstacles_m.empty() ? 0 : obstacles_m[step - 1].size();
+    return index < always ? obstacles_m[step - 1][index]
+                          : avoided_in_motion_m[step - 1][index - always];
+  }
   /// The cost of being at `position_m` after step `index` + 1 [m^2].
   [[nodiscard]] double position_cost_m2(std::size_t index, const Point& position_m) const {
     const Point error_m = position_m - reference_m[index];
@@ -52,6 +62,12 @@ struct HorizonProblem {
     return error_m.squaredNorm() + across * across;
   }
 };
+
+/// Whether the vehicle stands throughout the maneuver, so that it may meet what is avoided in
+/// motion.
+[[nodiscard]] inline bool stands_in(const automaton::Maneuver& maneuver) {
+  return maneuver.from == maneuver.to && maneuver.displacement == Pose{};
+}
 
 enum class CostToGo {
   /// Admissible and tight: the reachable sets of each trim (ReachableSets).

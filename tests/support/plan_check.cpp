@@ -22,13 +22,16 @@ bool are_close(const Pose& a, const Pose& b) {
 
 bool is_free(const automaton::Maneuver& maneuver, const Pose& start, std::size_t step,
              const search::HorizonProblem& problem) {
-  if (!problem.obstacles_m.empty()) {
-    const ConvexPolygon swept_m = transformed(maneuver.swept_area_m, start);
-    for (const ConvexPolygon& obstacle_m : problem.obstacles_m[step - 1]) {
-      if (intersects(swept_m, obstacle_m)) {
-        return false;
-      }
-    }
+  const bool moves = maneuver.from != maneuver.to || maneuver.displacement.x_m != 0.0 ||
+                     maneuver.displacement.y_m != 0.0 || maneuver.displacement.heading_rad != 0.0;
+  const ConvexPolygon swept_m = transformed(maneuver.swept_area_m, start);
+  for (const auto* const areas_m : {&problem.obstacles_m, &problem.avoided_in_motion_m}) {
+    const bool counts = areas_m == &problem.obstacles_m || moves;
+    if (!counts || areas_m->empty()) continue;
+    const bool is_met = std::ranges::any_of(
+        (*areas_m)[step - 1],
+        [&swept_m](const ConvexPolygon& area_m) { return intersects(swept_m, area_m); });
+    if (is_met) return false;
   }
   if (!problem.boundary_m.empty()) {
     const ConvexPolygon lane_m = transformed(maneuver.lane_area_m, start);

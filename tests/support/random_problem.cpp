@@ -65,6 +65,24 @@ void add_loose_segments(search::HorizonProblem& problem, std::mt19937_64& random
   }
 }
 
+/// Up to two areas that grow with the steps, now and then around the start.
+void add_avoided_in_motion(search::HorizonProblem& problem, std::mt19937_64& random) {
+  const std::size_t n = problem.horizon_steps();
+  problem.avoided_in_motion_m.resize(n);
+  for (std::size_t count = 1 + pick(random, 2); count > 0; --count) {
+    const Point near_m =
+        pick(random, 3) == 0 ? problem.start.position_m() : problem.reference_m[pick(random, n)];
+    const Pose centre{near_m.x() + uniform(random, -0.4, 0.4),
+                      near_m.y() + uniform(random, -0.4, 0.4), 0.0};
+    const double growth_m = uniform(random, 0.0, 0.1);
+    for (std::size_t j = 0; j < n; ++j) {
+      const double radius_m = 0.05 + growth_m * static_cast<double>(j);
+      problem.avoided_in_motion_m[j].push_back(
+          transformed(random_polygon(Point::Zero(), radius_m, random), centre));
+    }
+  }
+}
+
 /// Any directions: the search must not rely on normals of the path.
 void add_contouring(search::HorizonProblem& problem, std::mt19937_64& random) {
   const double weight = std::pow(10.0, uniform(random, -1.0, 3.0));
@@ -147,6 +165,7 @@ search::HorizonProblem random_problem(const automaton::Subgraph& subgraph,
     add_loose_segments(problem, random);
   }
   if (pick(random, 3) == 0) add_contouring(problem, random);
+  if (pick(random, 3) == 0) add_avoided_in_motion(problem, random);
   return problem;
 }
 

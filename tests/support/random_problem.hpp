@@ -27,7 +27,8 @@ namespace hlc::test {
                                                          std::mt19937_64& random);
 
 /// The same with up to four moving convex obstacles near the reference, and in one of two problems
-/// a lane along the reference, not always wide enough, or some loose boundary segments.
+/// a lane along the reference, not always wide enough, or some loose boundary segments; in one of
+/// three up to two growing areas that are avoided in motion.
 [[nodiscard]] search::HorizonProblem random_problem(const automaton::Subgraph& subgraph,
                                                     std::size_t horizon_steps,
                                                     std::mt19937_64& random);

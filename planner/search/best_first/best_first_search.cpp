@@ -18,7 +18,11 @@ bool is_well_formed(const HorizonProblem& problem, const automaton::ReachableSet
   const std::size_t n = problem.horizon_steps();
   const bool speeds_match = problem.reference_speed_mps.size() == n ||
                             (!needs_reference_speeds(kind) && problem.reference_speed_mps.empty());
-  const bool obstacles_match = problem.obstacles_m.empty() || problem.obstacles_m.size() == n;
+  const auto matches = [n](const std::vector<std::vector<ConvexPolygon>>& areas_m) {
+    return areas_m.empty() || areas_m.size() == n;
+  };
+  const bool obstacles_match =
+      matches(problem.obstacles_m) && matches(problem.avoided_in_motion_m);
   const bool contouring_matches = problem.contouring.empty() || problem.contouring.size() == n;
   return n <= reachable.max_steps() && speeds_match && obstacles_match && contouring_matches &&
          problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad);

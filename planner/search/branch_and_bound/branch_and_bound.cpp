@@ -242,6 +242,8 @@ void BranchAndBound::search(const HorizonProblem& problem, const std::function<b
              problem.contouring.size(), n);
   HLC_DEMAND(problem.obstacles_m.empty() || problem.obstacles_m.size() == n,
              problem.obstacles_m.size(), n);
+  HLC_DEMAND(problem.avoided_in_motion_m.empty() || problem.avoided_in_motion_m.size() == n,
+             problem.avoided_in_motion_m.size(), n);
   HLC_DEMAND(problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad),
              problem.start.x_m, problem.start.y_m, problem.start.heading_rad);
 

@@ -87,8 +87,10 @@ HLC_INLINE void make_ready(const Plan& plan, std::uint32_t first, std::uint32_t 
 HLC_INLINE bool look_around(const Search& search, std::size_t step, VertexData& vertex) {
   const Plan& plan = *search.plan;
   vertex.num_near = 0;
+  vertex.num_near_at_rest = 0;
   std::uint32_t first = plan.first_obstacle[step - 1];
   const std::uint32_t last = plan.last_obstacle[step - 1];
+  const std::uint32_t first_in_motion = plan.first_in_motion[step - 1];
   if (first == last) return true;
   // A rectangle that contains all edges' areas, against eight boxes at a time.
   const Placement at = placement_of(plan, vertex);
@@ -126,8 +128,12 @@ HLC_INLINE bool look_around(const Search& search, std::size_t step, VertexData& 
       const std::uint32_t item = first + static_cast<std::uint32_t>(__builtin_ctz(near));
       const Floats inside =
           see_from(at, plan.obstacle_blocks[item], vertex.near_blocks[vertex.num_near]);
-      if (around.all_hold_start && lanes_less(tolerance, inside) == kEveryLane) return false;
+      const bool is_met_at_rest = item < first_in_motion;
+      if (is_met_at_rest && around.all_hold_start && lanes_less(tolerance, inside) == kEveryLane) {
+        return false;
+      }
       vertex.near[vertex.num_near++] = item;
+      vertex.num_near_at_rest += static_cast<std::uint32_t>(is_met_at_rest);
     }
   }
   return true;
@@ -136,9 +142,10 @@ HLC_INLINE bool look_around(const Search& search, std::size_t step, VertexData& 
 /// Whether the edge to a child keeps clear of the obstacles near its vertex.
 HLC_INLINE bool keeps_off_obstacles(const Search& search, std::uint32_t edge,
                                     const VertexData& vertex) {
-  const std::uint32_t num_near = vertex.num_near;
-  if (num_near == 0) return true;
   const Tables& tables = *search.tables;
+  const std::uint32_t num_near =
+      tables.edges[edge].stands ? vertex.num_near_at_rest : vertex.num_near;
+  if (num_near == 0) return true;
   const Floats tolerance = all(search.plan->tolerance);
   const PolygonBlock* area = tables.area_blocks + tables.edges[edge].first_swept;
   for (std::uint32_t left = tables.edges[edge].num_swept; left != 0; --left, ++area) {

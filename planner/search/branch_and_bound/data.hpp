@@ -99,6 +99,7 @@ struct alignas(64) EdgeData {
   /// The swept area: convex pieces of up to eight corners. Most have one.
   std::uint32_t first_swept;  ///< of `Tables::area_blocks`
   std::uint32_t num_swept;
+  bool stands;  ///< `stands_in`
 };
 
 /// Steps of a BoundBlock.
@@ -136,6 +137,7 @@ struct PolygonData {
   std::uint32_t size;
   std::uint32_t step;    ///< from 0
   std::uint32_t number;  ///< among the step's, as in the problem
+  bool only_in_motion;   ///< one of HorizonProblem::avoided_in_motion_m; behind the step's others
 };
 
 /// A convex piece of an obstacle with more than eight corners: its first corner and, from number
@@ -204,6 +206,7 @@ struct Plan {
   /// begin at a multiple of eight. Equal consecutive polygons of a step are merged.
   std::uint32_t* first_obstacle;
   std::uint32_t* last_obstacle;
+  std::uint32_t* first_in_motion;  ///< those of step j from here on are avoided in motion only
   PieceData* obstacles;
   BoxesBlock* obstacle_boxes;
   PolygonBlock* obstacle_blocks;
@@ -240,6 +243,7 @@ struct VertexData {
   std::uint32_t* near;        ///< obstacles that an edge from here may meet
   PolygonBlock* near_blocks;  ///< the same seen from here
   std::uint32_t num_near;
+  std::uint32_t num_near_at_rest;  ///< the first of them: not only avoided in motion
 };
 
 /// Data shared by all vertices of one depth.

@@ -106,6 +106,7 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
   plan.first_obstacle[0] = 0;
   for (std::size_t step = 0; step < plan.horizon_steps; ++step) {
     const double* const reach = plan.reach[step];
+    plan.first_in_motion[step] = count;
     for (const PolygonData* before = nullptr; polygon != last && polygon->step == step;
          before = polygon++) {
       // A vehicle that keeps to its former plan has equal areas from both of its plans.
@@ -129,6 +130,7 @@ HLC_INLINE void prepare_obstacles(Plan& plan, const Axes& axes) {
                                  1 + (others < kMostOthers ? others : kMostOthers)};
         ++count;
       }
+      if (!polygon->only_in_motion) plan.first_in_motion[step] = count;
       largest_coordinate = larger(absolute(centre) + half, largest_coordinate);
     }
     plan.last_obstacle[step] = count;

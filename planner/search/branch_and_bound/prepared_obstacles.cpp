@@ -33,6 +33,7 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   }
   grow(first_obstacle_, n + 1);
   grow(last_obstacle_, n);
+  grow(first_in_motion_, n);
   // Every step's obstacles are padded.
   const std::size_t boxes_blocks = blocks_of(num_pieces_) + n;
   grow(obstacles_, boxes_blocks * kFloatLanes);
@@ -54,6 +55,7 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
   plan.scale = tables_.reach_m(n);
   plan.first_obstacle = first_obstacle_.data();
   plan.last_obstacle = last_obstacle_.data();
+  plan.first_in_motion = first_in_motion_.data();
   plan.obstacles = obstacles_.data();
   plan.obstacle_boxes = obstacle_boxes_.data();
   plan.obstacle_blocks = obstacle_blocks_.data();
@@ -63,26 +65,36 @@ void PreparedObstacles::list(const HorizonProblem& problem, Plan& plan) {
 }
 
 void PreparedObstacles::list_polygons() {
+  const auto& always_m = problem_->obstacles_m;
+  const auto& in_motion_m = problem_->avoided_in_motion_m;
   std::size_t most = 0;
-  for (const auto& areas_m : problem_->obstacles_m) most += areas_m.size();
+  for (const auto& areas_m : always_m) most += areas_m.size();
+  for (const auto& areas_m : in_motion_m) most += areas_m.size();
   grow(polygons_, most);
   num_polygons_ = 0;
   num_pieces_ = 0;
   most_in_step_ = 0;
-  for (std::size_t step = 0; step < problem_->obstacles_m.size(); ++step) {
+  for (std::size_t step = 0; step < problem_->horizon_steps(); ++step) {
     const std::size_t before = num_pieces_;
-    const auto& areas_m = problem_->obstacles_m[step];
-    for (std::size_t number = 0; number < areas_m.size(); ++number) {
-      const auto& corners_m = areas_m[number].vertices_m;
-      const std::size_t size = corners_m.size();
-      assert(size == 0 || size >= 3);  // per obstacle of every problem
-      if (size < 3) continue;
-      polygons_[num_polygons_++] = {corners_m.front().data(), static_cast<std::uint32_t>(size),
-                                    static_cast<std::uint32_t>(step),
-                                    static_cast<std::uint32_t>(number)};
-      num_pieces_ += pieces_of(size);
-    }
+    if (!always_m.empty()) list_polygons(always_m[step], step, false);
+    if (!in_motion_m.empty()) list_polygons(in_motion_m[step], step, true);
     most_in_step_ = std::max(most_in_step_, num_pieces_ - before);
+  }
+}
+
+void PreparedObstacles::list_polygons(const std::vector<ConvexPolygon>& areas_m, std::size_t step,
+                                      bool only_in_motion) {
+  for (std::size_t number = 0; number < areas_m.size(); ++number) {
+    const auto& corners_m = areas_m[number].vertices_m;
+    const std::size_t size = corners_m.size();
+    assert(size == 0 || size >= 3);  // per obstacle of every problem
+    if (size < 3) continue;
+    polygons_[num_polygons_++] = {.corners = corners_m.front().data(),
+                                  .size = static_cast<std::uint32_t>(size),
+                                  .step = static_cast<std::uint32_t>(step),
+                                  .number = static_cast<std::uint32_t>(number),
+                                  .only_in_motion = only_in_motion};
+    num_pieces_ += pieces_of(size);
   }
 }
 

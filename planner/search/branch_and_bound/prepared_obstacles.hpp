@@ -34,7 +34,9 @@ class PreparedObstacles {
   /// The obstacle or segment of the problem for one of the plan.
   [[nodiscard]] const ConvexPolygon& obstacle(std::uint32_t item) const {
     const PolygonData& polygon = polygons_[obstacles_[item].polygon];
-    return problem_->obstacles_m[polygon.step][polygon.number];
+    const auto& areas_m =
+        polygon.only_in_motion ? problem_->avoided_in_motion_m : problem_->obstacles_m;
+    return areas_m[polygon.step][polygon.number];
   }
   [[nodiscard]] const Segment& segment(std::uint32_t item) const {
     const std::size_t number = segment_source_[item / kFloatLanes] + item % kFloatLanes;
@@ -43,6 +45,9 @@ class PreparedObstacles {
 
  private:
   void list_polygons();
+  /// Those of a step (from 0), at the end of the list.
+  void list_polygons(const std::vector<ConvexPolygon>& areas_m, std::size_t step,
+                     bool only_in_motion);
 
   const TableStore& tables_;
   const HorizonProblem* problem_{};
@@ -53,6 +58,7 @@ class PreparedObstacles {
   std::vector<const double*> reach_;
   std::vector<std::uint32_t> first_obstacle_;
   std::vector<std::uint32_t> last_obstacle_;
+  std::vector<std::uint32_t> first_in_motion_;
   std::vector<PieceData> obstacles_;
   std::vector<BoxesBlock> obstacle_boxes_;
   std::vector<std::uint32_t> near_;

@@ -161,7 +161,8 @@ EdgeData TableStore::edge_data(const automaton::Edge& edge, const Frame& displac
                 .turned = {-y_m, x_m, -s, c},
                 .cost = costs.reduced_cost(*edge.maneuver),
                 .to = static_cast<std::uint32_t>(edge.to.index),
-                .first_swept = static_cast<std::uint32_t>(area_blocks_.size())};
+                .first_swept = static_cast<std::uint32_t>(area_blocks_.size()),
+                .stands = stands_in(*edge.maneuver)};
   const auto& corners = edge.maneuver->swept_area_m.vertices_m;
   for (std::size_t first = 1; first + 1 < corners.size(); first += kNextPiece) {
     const std::size_t last = std::min(first + kMostOthers, corners.size());

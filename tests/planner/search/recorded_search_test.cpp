@@ -176,6 +176,7 @@ TEST(RecordedSearch, EveryPlanIsRuledOutByExactlyOneVertex) {
     ASSERT_EQ(std::accumulate(counts.fates.begin(), counts.fates.end(), 0.0), counts.total);
     HorizonProblem open = c.problem;
     open.obstacles_m.clear();
+    open.avoided_in_motion_m.clear();
     open.boundary_m.clear();
     const auto all = test::exhaustive_search(c.subgraph, open).complete_paths;
     ASSERT_EQ(counts.total, static_cast<double>(all));
