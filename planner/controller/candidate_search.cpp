@@ -64,14 +64,20 @@ bool is_free(const PlanCandidate& candidate, const CandidateInputs& inputs) {
       !(std::ranges::all_of(areas.areas_m, is_in_reach) && is_in_reach(areas.final_area_m))) {
     return false;
   }
-  const auto& obstacles_m = candidate.problems.back().problem.obstacles_m;
-  for (std::size_t j = 0; j < obstacles_m.size(); ++j) {
+  const search::HorizonProblem& problem = candidate.problems.back().problem;
+  const auto meets_any = [&](const std::vector<std::vector<ConvexPolygon>>& obstacles_m,
+                             std::size_t j) {
+    if (obstacles_m.empty()) return false;
     const ConvexPolygon& area = areas.during({inputs.now.value + 1 + j});
-    if (std::ranges::any_of(obstacles_m[j], [&area](const ConvexPolygon& obstacle) {
-          return intersects(area, obstacle);
-        })) {
-      return false;
-    }
+    return std::ranges::any_of(obstacles_m[j], [&area](const ConvexPolygon& obstacle) {
+      return intersects(area, obstacle);
+    });
+  };
+  for (std::size_t j = 0; j < problem.horizon_steps(); ++j) {
+    if (meets_any(problem.obstacles_m, j)) return false;
+    const bool stands =
+        search::stands_in(candidate.plan->maneuver_during({inputs.now.value + 1 + j}));
+    if (!stands && meets_any(problem.avoided_in_motion_m, j)) return false;
   }
   return true;
 }

@@ -62,7 +62,7 @@ Controller::Controller(ControllerOptions options, PreparedSubgraph on,
       search_(std::move(on), options_.search, options_.horizon_steps),
       tracker_(std::make_shared<const std::vector<road::DrivableRoute>>(std::move(routes))),
       drivable_area_(options_.strategies.standstill_timeout, options_.horizon_steps),
-      neighbours_(options_.vehicle, rules_for_missing(subgraph().automaton())),
+      neighbours_(options_.vehicle, rules_for_missing(subgraph().automaton()), options_.guests),
       routes_digest_(digest_of(tracker_.routes())) {
   if (options_.conflicts) authority_.emplace(options_.conflicts, *options_.strategies.grant_order);
 }

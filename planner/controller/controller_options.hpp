@@ -12,6 +12,7 @@
 #include "planner/controller/plan_in_force.hpp"
 #include "planner/coordination/commit.hpp"
 #include "planner/coordination/coupling_rule.hpp"
+#include "planner/coordination/guest.hpp"
 #include "planner/coordination/priority.hpp"
 #include "planner/right_of_way/conflict_map.hpp"
 #include "planner/right_of_way/grant_order.hpp"
@@ -96,6 +97,8 @@ struct ControllerOptions {
   std::shared_ptr<const right_of_way::ConflictMap> conflicts{};
   /// Limits of the vehicle: a plan beyond them does not come into force. Absent: none.
   std::optional<vehicle::LabLimits> lab{};
+  /// Vehicles that take no part in the coordination: none of the observation's active ones.
+  std::vector<coordination::Guest> guests{};
   /// With which this controller plans for the others, too (joint_planning.hpp); its traffic then
   /// has a planning input. Absent: vehicles plan one after the other.
   ControllerFactory others{};

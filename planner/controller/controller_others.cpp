@@ -186,6 +186,11 @@ std::vector<OtherVehicle> Controller::other_vehicles() const {
     if (!result.is_out_of_contact) result.areas_m = obstacles_m({}, nullptr, {&missing, 1});
     others.push_back(std::move(result));
   }
+  for (const VehicleId guest : neighbours_.guests().seen()) {
+    others.push_back({.vehicle = guest,
+                      .areas_m = neighbours_.guests().avoided_in_motion_m(
+                          {&guest, 1}, options_.horizon_steps, subgraph().automaton().step_s)});
+  }
   mark(step_.opposed, &OtherVehicle::is_opposed, others);
   if (authority_) mark(authority_->withheld_by(), &OtherVehicle::withholds_road, others);
   return others;

@@ -32,6 +32,10 @@ search::HorizonProblem Controller::pose_problem(CoupledObstacleRule rule) const 
   problem.obstacles_m = obstacles_m(rule);
   for (auto& areas_m : problem.obstacles_m)
     std::ranges::copy(standing_m_, std::back_inserter(areas_m));
+  std::vector<VehicleId> guests = neighbours_.guests().seen();
+  std::erase_if(guests, [this](VehicleId guest) { return step_.left_out.holds(guest); });
+  problem.avoided_in_motion_m = neighbours_.guests().avoided_in_motion_m(
+      guests, options_.horizon_steps, subgraph().automaton().step_s);
   if (has_end) {
     const ConvexPolygon bar_m =
         authority_->bar_m(tracker_, subgraph().automaton().vehicle.footprint);

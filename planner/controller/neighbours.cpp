@@ -30,6 +30,7 @@ void Neighbours::receive(const coordination::ReceivedMessages<coordination::Traf
                          const Observation& observation) {
   missing_.clear();
   present_ = observation.present;
+  guests_.observe(observation);
   for (const VehicleId other : observation.active) {
     if (other == own_) continue;
     std::shared_ptr<const coordination::Traffic> message = traffic.find(other, now_);

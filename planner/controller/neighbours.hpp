@@ -6,9 +6,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "planner/automaton/automaton.hpp"
+#include "planner/controller/guests.hpp"
 #include "planner/controller/observation.hpp"
 #include "planner/coordination/messages.hpp"
 #include "planner/coordination/missing.hpp"
@@ -30,10 +32,12 @@ namespace hlc::controller {
 class Neighbours {
  public:
   /// @param rules  for missing ones
-  Neighbours(VehicleId own, const coordination::MissingVehicleRules& rules)
-      : own_(own), rules_(rules) {}
+  Neighbours(VehicleId own, const coordination::MissingVehicleRules& rules,
+             std::vector<coordination::Guest> guests = {})
+      : own_(own), rules_(rules), guests_(std::move(guests)) {}
 
   [[nodiscard]] const coordination::MissingVehicleRules& rules() const { return rules_; }
+  [[nodiscard]] const Guests& guests() const { return guests_; }
 
   /// Starts a step in which no message has been received.
   void begin_step(StepIndex step) { now_ = step; }
@@ -77,6 +81,7 @@ class Neighbours {
 
   VehicleId own_;
   coordination::MissingVehicleRules rules_;
+  Guests guests_;
   StepIndex now_;
   std::optional<StepIndex> last_looked_;  ///< last step of `receive`
   /// The last of each; of this step only if its step matches

@@ -24,7 +24,9 @@ std::uint64_t Controller::planning_basis() const {
 std::optional<coordination::PlanningInput> Controller::planning_input() const {
   // Who misses a vehicle for long plans from what only itself has seen of it.
   const bool misses_any = !step_.traffic.silent.empty();
-  if (misses_any || !path_s_m() || !search_.is_settled()) return std::nullopt;
+  // Others may have another state of a guest.
+  const bool avoids_guests = !neighbours_.guests().seen().empty();
+  if (misses_any || avoids_guests || !path_s_m() || !search_.is_settled()) return std::nullopt;
   std::optional<coordination::PlanningInput> input =
       in_force_->planning_input(step_.observation.step, subgraph().automaton());
   if (!input) return std::nullopt;
