@@ -37,6 +37,10 @@ std::string HlcCore::validate(const VehicleStateList& list) const {
 std::optional<controller::Observation> HlcCore::observe(const VehicleStateList& list) {
   controller::Observation observation =
       observation_of(list, vehicle::pose_lead_s(controller_->options().lab));
+  // The lab's list names them as any other vehicle.
+  for (const coordination::Guest& guest : controller_->options().guests) {
+    std::erase(observation.active, guest.vehicle);
+  }
   if (last_step_ && observation.step <= *last_step_) return std::nullopt;
   last_step_ = observation.step;
   return observation;

@@ -42,7 +42,11 @@ RunFolder read_run_folder(const fs::path& folder, const RunChoices& given) {
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(folder.string() + ": " + error.what());
   }
-  run.drives = read_drives(folder, run.facts.vehicle_ids);
+  std::vector<std::uint8_t> ids = run.facts.vehicle_ids;
+  for (const result::VehicleDescription& guest : run.description.guests) {
+    ids.push_back(guest.id.value);
+  }
+  run.drives = read_drives(folder, ids);
   run.rows = result::step_records(reports, run.drives, run.facts);
   result::RunFacts of_the_rest = run.facts;
   std::erase_if(of_the_rest.vehicle_ids, [&](std::uint8_t id) { return takes_out(forks, id); });

@@ -134,6 +134,12 @@ std::string summary_json(const result::RunSummary& summary) {
   json["rounds"] = run.has_two_rounds ? "two" : "sequential";
   json["min_obstacle_distance_m"] = or_null(summary.min_obstacle_distance_m);
   json["obstacles"] = obstacles_json(run.obstacles);
+  json["guests"] = Json::array();
+  for (const result::VehicleDescription& one : run.guests) {
+    json["guests"].push_back({{"id", one.id.value}, {"name", one.name}});
+  }
+  json["min_guest_distance_m"] = or_null(summary.with_guests.min_distance_m);
+  json["touched_by_guests"] = summary.with_guests.touched;
   return json.dump(2) + "\n";
 }
 

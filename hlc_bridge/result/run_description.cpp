@@ -36,6 +36,9 @@ RunDescription describe(const scenario::Scenario& scenario,
   for (const scenario::ScenarioObstacle& one : scenario.obstacles) {
     description.obstacles.push_back({.name = one.name, .area_m = one.area_m});
   }
+  for (const scenario::ScenarioGuest& one : scenario.guests) {
+    description.guests.push_back({one.guest.vehicle, one.name, std::nullopt, one.guest.footprint});
+  }
   return description;
 }
 

@@ -48,6 +48,7 @@ struct RunDescription {
   double step_s{};
   std::vector<VehicleDescription> vehicles;
   std::vector<Obstacle> obstacles;
+  std::vector<VehicleDescription> guests;  ///< without routes
   /// LabLimits::tracking_error_max_m of the scenario's lab; 0: not known.
   double tracking_error_max_m{};
   /// The automaton of the plans: gives the planned poses between steps. None: only those at the

@@ -254,7 +254,9 @@ RunSummary summarize(const RunDescription& description, const RunFacts& facts,
                                                 begin, facts.period, end);
     summary.min_footprint_distance_m = close.min_distance_m;
     summary.min_obstacle_distance_m = standing.min_distance_m;
-    summary.collisions = close.collisions + standing.collisions;
+    summary.with_guests =
+        guest_encounters(description.vehicles, description.guests, drives, begin, end);
+    summary.collisions = close.collisions + standing.collisions + summary.with_guests.collisions;
   }
   summary.wall_s = facts.wall_s;
   summary.realtime_factor = facts.wall_s > 0.0 ? facts.clock_s / facts.wall_s : 0.0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/result/guest_encounters.hpp"
 #include "hlc_bridge/result/run_record.hpp"
 #include "hlc_bridge/result/statistics.hpp"
 #include "hlc_bridge/result/waits.hpp"
@@ -61,7 +62,9 @@ struct RunSummary {
   std::optional<coordination::JointGapFigures> joint_gap;  ///< none: no gap is known
   std::optional<double> min_footprint_distance_m;          ///< driven; none with one vehicle
   std::optional<double> min_obstacle_distance_m;           ///< the same; none without obstacles
-  std::size_t collisions{};                                ///< of vehicles, and with obstacles
+  GuestEncounters with_guests;
+  /// Of vehicles, with obstacles, and of moving vehicles with guests.
+  std::size_t collisions{};
   double wall_s{};
   double realtime_factor{};  ///< time of the run / wall_s
   /// From the list's t_now until the command (ReportRecord::response_ns), over all vehicles and

@@ -176,6 +176,14 @@ std::string summary_table(const RunSummary& summary) {
           ? fmt::format("{:.1f} mm", *summary.min_footprint_distance_m * kMillimetresPerMetre)
           : "-",
       summary.collisions);
+  if (const GuestEncounters& guests = summary.with_guests; guests.min_distance_m) {
+    text += fmt::format(
+        "  smallest distance to a guest                 {:.1f} mm{}\n",
+        *guests.min_distance_m * kMillimetresPerMetre,
+        guests.touched == 0
+            ? ""
+            : fmt::format("; guests drove into standing vehicles {} times", guests.touched));
+  }
   if (summary.min_obstacle_distance_m) {
     text += fmt::format("  smallest distance to an obstacle             {:.1f} mm\n",
                         *summary.min_obstacle_distance_m * kMillimetresPerMetre);

@@ -48,6 +48,11 @@ void print_table(const hlc::scenario::Scenario& scenario) {
     std::printf("%4d  %-10s %9.3f %9.3f %9.3f %11.3f\n", vehicle.id.value, vehicle.name.c_str(),
                 vehicle.path.length_m(), vehicle.start_s_m, vehicle.start.x_m, vehicle.start.y_m);
   }
+  for (const hlc::scenario::ScenarioGuest& one : scenario.guests) {
+    std::printf("%4d  %-10s %9s %9s %9.3f %11.3f   guest, at most %g m/s\n",
+                one.guest.vehicle.value, one.name.c_str(), "-", "-", one.start.x_m, one.start.y_m,
+                one.guest.limits.speed_mps);
+  }
 }
 
 /// One line per vehicle: id, start pose of the vehicle (yaw) for `vehicle_sim --pose`, and its
@@ -66,13 +71,24 @@ struct Parts {
   bool starts{};
   bool steps{};
   bool period{};
+  bool guests{};
 };
+
+/// Their ids, as flags take them; "-" without any.
+std::string guest_ids(const hlc::scenario::Scenario& scenario) {
+  std::vector<unsigned> ids;
+  for (const hlc::scenario::ScenarioGuest& one : scenario.guests) {
+    ids.push_back(one.guest.vehicle.value);
+  }
+  return ids.empty() ? "-" : fmt::format("{}", fmt::join(ids, ","));
+}
 
 void print(const hlc::scenario::Scenario& scenario, const Parts& parts) {
   if (parts.starts) print_starts(scenario);
   if (parts.steps) std::printf("%zu\n", scenario.steps);
   if (parts.period) std::printf("%g\n", 1e3 * scenario.subgraph->automaton().step_s);
-  if (!parts.starts && !parts.steps && !parts.period) print_table(scenario);
+  if (parts.guests) std::printf("%s\n", guest_ids(scenario).c_str());
+  if (!parts.starts && !parts.steps && !parts.period && !parts.guests) print_table(scenario);
 }
 
 }  // namespace
@@ -89,6 +105,8 @@ int main(int argc, char** argv) {
                "print only `id x,y,yaw stamps` per vehicle (the next one may follow)");
   app.add_flag("--print_steps", parts.steps, "print only the number of steps");
   app.add_flag("--print_period", parts.period, "print only the duration of a step [ms]");
+  app.add_flag("--print_guests", parts.guests,
+               "print only the guests' ids, as 29,30; - without any");
   hlc::apps::declare_output(app, plot,
                             "draw lanes, reference paths and cars at the start (SVG, PDF); with "
                             "--starts also their poses: a sheet to place them by");

@@ -40,6 +40,9 @@ std::vector<std::filesystem::path> files_of(const Scenario& scenario) {
   std::vector<std::filesystem::path> files{scenario.file, scenario.automaton_file};
   if (scenario.map_file) files.push_back(*scenario.map_file);
   if (scenario.lab_file) files.push_back(*scenario.lab_file);
+  for (const ScenarioGuest& guest : scenario.guests) {
+    if (guest.drive == GuestDrive::kTrack) files.push_back(guest.track_file);
+  }
   return files;
 }
 
@@ -99,6 +102,8 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
   }
   controller::ControllerFactory others;
   if (scenario.rounds == controller::Rounds::kTwo) others = others_of(scenario, on);
+  std::vector<coordination::Guest> guests;
+  for (const ScenarioGuest& one : scenario.guests) guests.push_back(one.guest);
   auto controller = std::make_unique<controller::Controller>(
       controller::ControllerOptions{.vehicle = id,
                                     .horizon_steps = scenario.horizon_steps,
@@ -110,6 +115,7 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                                     .deviation = deviation_rules(scenario.lab),
                                     .conflicts = scenario.conflicts,
                                     .lab = scenario.lab,
+                                    .guests = std::move(guests),
                                     .others = std::move(others)},
       std::move(on), std::move(routes));
   for (const ScenarioObstacle& one : scenario.obstacles) controller->add_obstacle(one.area_m);

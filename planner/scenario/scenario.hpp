@@ -15,6 +15,7 @@
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/placement.hpp"
 #include "planner/road/reference_path.hpp"
+#include "planner/scenario/guest_values.hpp"
 #include "planner/scenario/profile.hpp"
 
 namespace hlc::scenario {
@@ -64,6 +65,7 @@ struct Scenario {
   std::shared_ptr<const automaton::Subgraph> subgraph;
   std::vector<ScenarioVehicle> vehicles;  ///< sorted by id
   std::vector<ScenarioObstacle> obstacles;
+  std::vector<ScenarioGuest> guests;
   /// For vehicles that the scenario does not name: its routes by name, or on a circle and with
   /// random routes those of its cars.
   std::vector<road::DrivableRoute> routes;

@@ -14,6 +14,7 @@
 #include "planner/scenario/priority_values.hpp"
 #include "planner/scenario/scenario_vehicles.hpp"
 #include "planner/scenario/search_values.hpp"
+#include "planner/scenario/starts.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc::scenario {
@@ -121,6 +122,19 @@ void add_obstacles(const ScenarioValues& values, const std::vector<road::MapObst
   }
 }
 
+/// @pre the vehicles are there
+void check_guests(const ScenarioValues& values, const Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.guests.size(); ++i) {
+    const GuestValues& one = values.guests[i];
+    const bool is_vehicle = std::ranges::find(scenario.vehicles, one.id, &ScenarioVehicle::id) !=
+                            scenario.vehicles.end();
+    if (is_vehicle) one.node.fail("id", "none of the vehicles' ids");
+    if (const std::string other = overlapped_by_guest(i, scenario); !other.empty()) {
+      one.node.map("start").fail("x_m", fmt::format("a start that does not overlap {}", other));
+    }
+  }
+}
+
 /// Votes need a round of their own. Profile 2022 has such a rule; it plans sequentially then.
 /// Comparing orders by their plans needs two rounds.
 controller::Rounds rounds_of(const ScenarioValues& values, const ScenarioChoices& choices,
@@ -179,7 +193,9 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   check_lab(scenario);
   choose_policy(values, choices, scenario);
   add_obstacles(values, inputs.map_obstacles, scenario);
+  scenario.guests = guests_of(values.guests, scenario.subgraph->automaton().vehicle);
   add_vehicles(values, inputs, choices, scenario);
+  check_guests(values, scenario);
   check_zones(values.node, scenario);
   std::ranges::sort(scenario.vehicles, {}, &ScenarioVehicle::id);
   return scenario;

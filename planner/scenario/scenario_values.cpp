@@ -150,6 +150,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .policies = read_policies(node),
       .policy = node.optional<std::string>("policy", policy::kNoPolicy),
       .obstacles = read_obstacles(node),
+      .guests = read_guests(node, path),
       .node = node};
   if (node.has("lab")) values.lab_file = beside(path, node.required<std::string>("lab"));
   if (node.has("circle")) {

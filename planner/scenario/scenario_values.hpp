@@ -13,6 +13,7 @@
 #include "planner/geometry/pose.hpp"
 #include "planner/policy/policy_settings.hpp"
 #include "planner/road/lanelet_map.hpp"
+#include "planner/scenario/guest_values.hpp"
 #include "planner/scenario/obstacle_values.hpp"
 #include "planner/scenario/strategy_values.hpp"
 #include "planner/search/search_options.hpp"
@@ -83,6 +84,7 @@ struct ScenarioValues {
   std::vector<VehicleValues> vehicles{};
   std::uint64_t seed{1};  ///< of random routes and drawn cars
   std::vector<ObstacleValues> obstacles{};
+  std::vector<GuestValues> guests{};
   Node node;  ///< the whole file, for messages
 };
 

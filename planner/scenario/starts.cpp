@@ -29,6 +29,10 @@ ConvexPolygon start_area(const Scenario& scenario, const ScenarioVehicle& vehicl
   return footprint_area(parameters.footprint, vehicle.start, parameters.safety_margin_m);
 }
 
+ConvexPolygon start_area(const ScenarioGuest& guest) {
+  return footprint_area(guest.guest.footprint, guest.start, guest.guest.safety_margin_m);
+}
+
 std::invalid_argument too_many(const Scenario& scenario) {
   return std::invalid_argument(
       fmt::format("{}: {} vehicles, too many for random starts without overlap",
@@ -52,11 +56,14 @@ std::vector<std::size_t> drawn(const std::vector<ConvexPolygon>& areas, std::siz
   return taken;
 }
 
-/// Whether a footprint at the start overlaps one.
-bool is_in_obstacle(const Scenario& scenario, const ConvexPolygon& start_area_m) {
-  return std::ranges::any_of(scenario.obstacles, [&](const ScenarioObstacle& one) {
-    return intersects(start_area_m, one.area_m);
-  });
+/// Whether a footprint at the start overlaps an obstacle or a guest.
+bool is_taken(const Scenario& scenario, const ConvexPolygon& start_area_m) {
+  return std::ranges::any_of(
+             scenario.obstacles,
+             [&](const ScenarioObstacle& one) { return intersects(start_area_m, one.area_m); }) ||
+         std::ranges::any_of(scenario.guests, [&](const ScenarioGuest& one) {
+           return intersects(start_area_m, start_area(one));
+         });
 }
 
 }  // namespace
@@ -91,7 +98,7 @@ std::vector<ScenarioVehicle> draw_cars(const Scenario& scenario, std::size_t car
   const auto add_all = [&](const std::vector<ScenarioVehicle>& list) {
     for (const ScenarioVehicle& one : list) {
       ConvexPolygon area_m = start_area(scenario, one);
-      if (is_in_obstacle(scenario, area_m)) continue;
+      if (is_taken(scenario, area_m)) continue;
       candidates.push_back(&one);
       areas.push_back(std::move(area_m));
     }
@@ -129,6 +136,24 @@ std::optional<std::pair<std::size_t, std::size_t>> start_in_obstacle(const Scena
     }
   }
   return std::nullopt;
+}
+
+std::string overlapped_by_guest(std::size_t index, const Scenario& scenario) {
+  const ConvexPolygon area_m = start_area(scenario.guests[index]);
+  const auto meets = [&area_m](const ConvexPolygon& other_m) {
+    return intersects(area_m, other_m);
+  };
+  for (const ScenarioVehicle& vehicle : scenario.vehicles) {
+    if (meets(start_area(scenario, vehicle))) return fmt::format("vehicle {}", vehicle.id.value);
+  }
+  for (std::size_t before = 0; before < index; ++before) {
+    const ScenarioGuest& other = scenario.guests[before];
+    if (meets(start_area(other))) return fmt::format("guest {}", other.guest.vehicle.value);
+  }
+  for (const ScenarioObstacle& one : scenario.obstacles) {
+    if (meets(one.area_m)) return fmt::format("obstacle {}", one.name);
+  }
+  return {};
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> overlapping_starts(const Scenario& scenario) {
@@ -182,7 +207,11 @@ Scenario displaced(const Scenario& scenario, std::uint64_t seed) {
       starts_s_m.push_back(uniform(random) * vehicle.path.length_m());
     }
     Scenario candidate = with_starts(scenario, starts_s_m);
-    if (!overlapping_starts(candidate) && !start_in_obstacle(candidate)) return candidate;
+    const bool is_any_taken =
+        std::ranges::any_of(candidate.vehicles, [&candidate](const ScenarioVehicle& vehicle) {
+          return is_taken(candidate, start_area(candidate, vehicle));
+        });
+    if (!overlapping_starts(candidate) && !is_any_taken) return candidate;
   }
   throw too_many(scenario);
 }
@@ -190,10 +219,11 @@ Scenario displaced(const Scenario& scenario, std::uint64_t seed) {
 }  // namespace
 
 Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed) {
-  if (scenario.candidates.empty()) return displaced(scenario, seed);
-  Scenario drawn_again = redrawn(scenario, seed);
-  relate_routes(drawn_again);
-  return drawn_again;
+  Scenario other =
+      scenario.candidates.empty() ? displaced(scenario, seed) : redrawn(scenario, seed);
+  for (ScenarioGuest& guest : other.guests) guest.seed += seed;
+  if (!scenario.candidates.empty()) relate_routes(other);
+  return other;
 }
 
 void check_random_starts(const Scenario& scenario, std::uint64_t seed) {

@@ -19,6 +19,10 @@ namespace hlc::scenario {
 [[nodiscard]] ScenarioVehicle on_random_route(ScenarioVehicle vehicle, const road::LaneletMap& map,
                                               std::uint64_t seed);
 
+/// What the footprint with margin of this guest overlaps at its start: a vehicle, a guest before it
+/// or an obstacle, in words; empty if it stands clear.
+[[nodiscard]] std::string overlapped_by_guest(std::size_t index, const Scenario& scenario);
+
 /// Indices i < j of two vehicles whose footprints with margin overlap at the start; nothing if
 /// there are none.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> overlapping_starts(
@@ -37,7 +41,7 @@ namespace hlc::scenario {
 /// Draws cars from scenario.candidates, none twice, with ids 1, 2, ..., at the candidates' starts,
 /// and where these are too few the others from scenario.further_candidates. A candidate whose
 /// footprint with margin overlaps with that of a car drawn before is drawn again, one that overlaps
-/// an obstacle is left out.
+/// an obstacle or a guest is left out.
 /// With random routes each car gets its own (random_tour.hpp), of the same seed. The same on every
 /// machine.
 /// @return `cars` of them, or fewer, as many as could be placed in the best of a thousand draws
@@ -46,8 +50,8 @@ namespace hlc::scenario {
                                                      std::uint64_t seed);
 
 /// The scenario with every vehicle at a random place on its path, uniform in arc length, without
-/// overlaps, also of obstacles; if it has candidates, with as many cars drawn from them again. The
-/// same seed gives the same starts.
+/// overlaps, also of obstacles and guests; if it has candidates, with as many cars drawn from them
+/// again. Guests that wander do so by another seed. The same seed gives the same starts.
 /// @throws std::invalid_argument if a path is not closed, or if a thousand draws all overlap
 [[nodiscard]] Scenario with_random_starts(const Scenario& scenario, std::uint64_t seed);
 

@@ -28,6 +28,7 @@ simulated_vehicle::VehicleFleet fleet(const VehicleProcessOptions& options) {
     machines.push_back({.vehicle = vehicle,
                         .rules = options.rules,
                         .is_among_lab_programs = options.transport == dds::Transport::kLab,
+                        .guest_ids = options.guest_ids,
                         .keep_running = options.keep_running,
                         .ticks_by_period = options.ticks_by_period,
                         .startup_timeout = time::nanoseconds(options.startup_timeout)});

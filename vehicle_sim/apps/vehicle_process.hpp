@@ -23,6 +23,7 @@ namespace hlc::apps {
 
 struct VehicleProcessOptions {
   std::vector<simulated_vehicle::SimulatedVehicleOptions> vehicles;  ///< at least one
+  std::vector<std::uint8_t> guest_ids{};                             ///< VehicleMachineOptions
   std::string version{};  ///< ParticipantOptions::version
   std::function<void(const dds::PublishedMessage&)> on_published{};  ///< ParticipantOptions
   dds::Transport transport{dds::Transport::kLab};

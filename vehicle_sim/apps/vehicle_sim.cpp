@@ -14,8 +14,10 @@
 #include "hlc_bridge/apps/message_recording.hpp"
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
+#include "planner/scenario/guest_values.hpp"
 #include "vehicle_sim/apps/start_pose.hpp"
 #include "vehicle_sim/apps/vehicle_process.hpp"
+#include "vehicle_sim/vehicle/guest_vehicle.hpp"
 
 namespace {
 
@@ -28,6 +30,7 @@ struct Flags {
   std::vector<std::uint64_t> noise_seeds;
   double gains_scale{1.0};
   std::string stamps{"exact"};
+  std::string guests;
   std::string record;
   bool append_record{};
   bool keep_running{false};
@@ -56,6 +59,9 @@ void declare(CLI::App& app, Flags& flags) {
                  "which follows by its own controller and shows the pose 20 ms after the stamp")
       ->capture_default_str()
       ->check(CLI::IsMember({"exact", "lab"}));
+  app.add_option("--guests", flags.guests,
+                 "scenario file, whose guests start and drive as it states; default: there are "
+                 "none");
   CLI::Option* const record =
       app.add_option("--record", flags.record,
                      "CSV file for the true motion, one row per tick; with several vehicles one "
@@ -87,7 +93,13 @@ std::vector<Value> share_of(const char* flag, const std::vector<Value>& all, std
   return {begin, begin + static_cast<std::ptrdiff_t>(size)};
 }
 
-std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(const Flags& flags) {
+std::vector<hlc::scenario::ScenarioGuest> guests(const Flags& flags) {
+  if (flags.guests.empty()) return {};
+  return hlc::scenario::guests_of_file(flags.guests);
+}
+
+std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(
+    const Flags& flags, const std::vector<hlc::scenario::ScenarioGuest>& guests) {
   hlc::apps::check_each_once("--vehicle_ids", flags.vehicle_ids);
   const bool is_as_in_lab = flags.stamps == "lab";
   if (is_as_in_lab && flags.gains_scale != 1.0) {
@@ -99,14 +111,23 @@ std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(const Flag
   std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles;
   for (std::size_t i = 0; i < count; ++i) {
     const auto id = static_cast<std::uint8_t>(flags.vehicle_ids[i]);
-    const auto seed = share_of("--noise_seed", flags.noise_seeds, i, 1, count);
+    const auto seeds = share_of("--noise_seed", flags.noise_seeds, i, 1, count);
+    const auto seed = seeds.empty() ? std::nullopt : std::optional(seeds.front());
+    const auto stamps = is_as_in_lab ? hlc::simulated_vehicle::Stamps::kLab
+                                     : hlc::simulated_vehicle::Stamps::kExact;
+    const auto guest = std::ranges::find(guests, id, [](const hlc::scenario::ScenarioGuest& one) {
+      return one.guest.vehicle.value;
+    });
+    if (guest != guests.end()) {
+      vehicles.push_back(hlc::simulated_vehicle::guest_vehicle(*guest, seed, stamps));
+      continue;
+    }
     vehicles.push_back(
         {.vehicle_id = id,
          .start = hlc::apps::start_pose(id, share_of("--pose", flags.pose, i, 3, count)),
-         .noise_seed = seed.empty() ? std::nullopt : std::optional(seed.front()),
+         .noise_seed = seed,
          .gains = scaled(hlc::tracking::FollowerGains{}, flags.gains_scale),
-         .stamps = is_as_in_lab ? hlc::simulated_vehicle::Stamps::kLab
-                                : hlc::simulated_vehicle::Stamps::kExact});
+         .stamps = stamps});
   }
   return vehicles;
 }
@@ -132,7 +153,13 @@ std::vector<std::string> record_files(const Flags& flags) {
 hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
   hlc::dds::check_domain_id("--dds_domain", flags.network.dds_domain);
   const hlc::Nanoseconds grace = flags.keep_running ? hlc::machine::kForever : hlc::kVehicleStays;
-  return {.vehicles = vehicles(flags),
+  const std::vector<hlc::scenario::ScenarioGuest> guests = ::guests(flags);
+  std::vector<std::uint8_t> guest_ids;
+  for (const hlc::scenario::ScenarioGuest& one : guests) {
+    guest_ids.push_back(one.guest.vehicle.value);
+  }
+  return {.vehicles = vehicles(flags, guests),
+          .guest_ids = std::move(guest_ids),
           .version = hlc::apps::program_version(),
           .transport = hlc::dds::transport_from_name(flags.network.transport),
           .lab_domain = flags.network.dds_domain,

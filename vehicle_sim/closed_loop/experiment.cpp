@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,6 +21,7 @@
 #include "vehicle_sim/closed_loop/applied_forks.hpp"
 #include "vehicle_sim/closed_loop/member.hpp"
 #include "vehicle_sim/closed_loop/stamps_of.hpp"
+#include "vehicle_sim/vehicle/guest_vehicle.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 namespace hlc::closed_loop {
@@ -70,6 +72,13 @@ class Lab {
                           .choice = std::move(choice)});
     }
     std::ranges::sort(members_, {}, &Member::id);
+    for (const scenario::ScenarioGuest& guest : scenario.guests) {
+      const std::uint8_t id = guest.guest.vehicle.value;
+      std::optional<std::uint64_t> noise_seed;
+      if (options.noise_seed) noise_seed = *options.noise_seed + id;
+      guests_.emplace(
+          id, simulated_vehicle::SimulatedVehicle(simulated_guest(guest, scenario, noise_seed)));
+    }
     forks_.emplace(options.forks, scenario, members_);
   }
 
@@ -121,6 +130,11 @@ class Lab {
     } else {
       const Nanoseconds from = wall_clock_();
       for (Member& member : members_) tick(member, t);
+      for (auto& [id, vehicle] : guests_) {
+        const simulated_vehicle::SimulatedVehicle::Tick done = vehicle.tick(t);
+        states_.add(id, done.state);
+        experiment_.drives[id].push_back(done.driven);
+      }
       for (const VehicleId gone : forks_->gone()) {
         run_.ready({.source_id = vehicle_name(gone.value), .next_start = t + kVehiclePeriod});
       }
@@ -149,6 +163,7 @@ class Lab {
     if (start_) apply_forks(step);
     std::vector<std::int32_t> active;
     for (const Member& member : members_) active.push_back(member.id);
+    for (const auto& [id, vehicle] : guests_) active.push_back(id);
     std::ranges::sort(active);
     states_.forget_before(t_now);
     const VehicleStateList list =
@@ -250,6 +265,7 @@ class Lab {
       member.vehicle.brake();
       member.is_stop_requested = true;
     }
+    for (auto& [id, vehicle] : guests_) vehicle.brake();
     for (const VehicleId gone : forks_->gone()) {
       alive_.erase(vehicle_name(gone.value));
       lost_.insert(vehicle_name(gone.value));
@@ -277,6 +293,7 @@ class Lab {
   std::function<Nanoseconds()> wall_clock_;
   std::function<Nanoseconds()> cpu_clock_;
   std::vector<Member> members_;  ///< by id
+  std::map<std::uint8_t, simulated_vehicle::SimulatedVehicle> guests_;
   std::optional<AppliedForks> forks_;
   middleware::StateBuffer states_;
   std::optional<StepIndex> start_;  ///< first step of the experiment, once it has begun

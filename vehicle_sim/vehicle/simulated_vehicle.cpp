@@ -41,6 +41,7 @@ SimulatedVehicle::SimulatedVehicle(const SimulatedVehicleOptions& options)
               .noise_seed = options.noise_seed}),
       estimator_(options.vehicle),
       follower_(options.gains, options.vehicle) {
+  if (options.driver) driver_.emplace(*options.driver);
   if (options.stamps == Stamps::kLab) {
     lab_follower_.emplace(options.vehicle);
     measure();
@@ -56,6 +57,9 @@ SimulatedVehicle::Tick SimulatedVehicle::tick(Nanoseconds t_now) {
   const vehicle::VehicleMotion truth = plant_.motion();
   const bool moves_first = lab_follower_.has_value();
   if (!moves_first) measure();
+  if (driver_) {
+    std::visit([this](const auto& command) { receive(command); }, driver_->tick(t_now, truth));
+  }
   const Decision decision = decide(t_now);
   follower_.give(decision.input);
   if (moves_first) {

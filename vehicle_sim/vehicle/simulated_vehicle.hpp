@@ -7,6 +7,7 @@
 
 #include "hlc_bridge/messages/messages.hpp"
 #include "hlc_bridge/result/run_record.hpp"
+#include "vehicle_sim/guest/guest_driver.hpp"
 #include "vehicle_sim/plant/plant.hpp"
 #include "vehicle_sim/tracking/command_buffer.hpp"
 #include "vehicle_sim/tracking/command_laws.hpp"
@@ -31,6 +32,8 @@ struct SimulatedVehicleOptions {
   tracking::FollowerGains gains;            ///< of kExact
   vehicle::IdentifiedVehicle vehicle;
   Stamps stamps{Stamps::kExact};
+  /// Of a guest that nobody else drives; none: the vehicle follows received commands.
+  std::optional<guest::GuestDriverOptions> driver{};
 };
 
 /// A whole µCar without network and clock: commands in, states out, one call per tick of 20 ms. The
@@ -100,6 +103,7 @@ class SimulatedVehicle {
   tracking::Follower follower_;
   std::optional<tracking::LabFollower> lab_follower_;  ///< Stamps::kLab
   tracking::SpeedControl speed_control_;
+  std::optional<guest::GuestDriver> driver_;
   int braking_ticks_left_{};
 };
 

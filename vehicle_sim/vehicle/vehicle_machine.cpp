@@ -146,6 +146,10 @@ std::string VehicleMachine::parameter_fault() const {
   return {};
 }
 
+bool VehicleMachine::is_guest(std::int32_t id) const {
+  return std::ranges::find(options_.guest_ids, id) != options_.guest_ids.end();
+}
+
 /// A state or a command without a receiver is lost, and then a tick would wait for it. Among the
 /// lab's programs: of any participant.
 bool VehicleMachine::is_connected() const {
@@ -155,11 +159,12 @@ bool VehicleMachine::is_connected() const {
   }
   const bool all_middlewares_receive =
       std::ranges::all_of(start_up_.parameters().active_ids(), [&](std::int32_t id) {
-        return presence_.state_readers.names.contains(
-            middleware_name(static_cast<std::uint8_t>(id)));
+        return is_guest(id) || presence_.state_readers.names.contains(
+                                   middleware_name(static_cast<std::uint8_t>(id)));
       });
+  const std::uint8_t own = options_.vehicle.vehicle_id;
   return all_middlewares_receive &&
-         presence_.command_writers.names.contains(middleware_name(options_.vehicle.vehicle_id));
+         (is_guest(own) || presence_.command_writers.names.contains(middleware_name(own)));
 }
 
 std::string VehicleMachine::who_is_missing() const {
@@ -169,6 +174,7 @@ std::string VehicleMachine::who_is_missing() const {
     missing.emplace_back(kLabControlName);
   }
   for (const std::int32_t id : start_up_.parameters().active_ids()) {
+    if (is_guest(id)) continue;
     const std::string middleware = middleware_name(static_cast<std::uint8_t>(id));
     const bool commands =
         id != options_.vehicle.vehicle_id || presence_.command_writers.names.contains(middleware);
@@ -190,6 +196,7 @@ bool VehicleMachine::is_answered(Nanoseconds list) const {
 
 bool VehicleMachine::awaits_answer(const PendingTick& tick, const Instant& now, Actions& actions) {
   if (options_.rules.patience == 0 || vehicle_.is_braking()) return false;
+  if (is_guest(options_.vehicle.vehicle_id)) return false;
   const std::optional<Nanoseconds> list =
       last_list_before(tick.time, start_up_.parameters().period());
   if (!list || is_answered(*list)) return false;

@@ -26,6 +26,8 @@ struct VehicleMachineOptions {
   /// The lab's own programs may be present: its middleware has another name, and its controllers do
   /// not answer before the start.
   bool is_among_lab_programs{};
+  /// Vehicles of the run without controller and middleware, this one or others.
+  std::vector<std::uint8_t> guest_ids{};
   bool keep_running{};  ///< after a stop brake, then listen again instead of ending
   /// Logical time, without readers but our middlewares: one tick a period stands for all since the
   /// last one, and only the states that the lists hold are published.
@@ -47,8 +49,9 @@ struct VehiclePresence {
 ///
 /// If the rules require it, it gets period and active vehicles from the lab control before its
 /// first tick and waits for all its endpoints to be matched, and each tick waits for the answer to
-/// the last list before it; that wait ends when the middleware or the controller is lost, or after
-/// the patience (then they are not awaited until a command is received again).
+/// the last list before it (not that of a guest, which has no controller); that wait ends when the
+/// middleware or the controller is lost, or after the patience (then they are not awaited until a
+/// command is received again).
 ///
 /// A command whose create_stamp is not plausible (StampCheck) is dropped, because it would replace
 /// every later command. It is no answer to a list.
@@ -111,6 +114,7 @@ class VehicleMachine {
   void receive_commands(const Instant& now, Actions& actions);
   [[nodiscard]] bool is_prepared(const Instant& now, Actions& actions);
   [[nodiscard]] std::string parameter_fault() const;
+  [[nodiscard]] bool is_guest(std::int32_t id) const;
   [[nodiscard]] bool is_connected() const;
   [[nodiscard]] std::string who_is_missing() const;
   [[nodiscard]] bool awaits_answer(const PendingTick& tick, const Instant& now, Actions& actions);

@@ -47,7 +47,8 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
                   "collisions", "wall_s", "realtime_factor", "response_time_ms", "trace_sha256",
                   "revision", "host", "engine", "expanded_vertices_sum_max", "policy",
                   "longest_wait_s", "stuck_vehicles", "joint_gap", "priorities", "rounds",
-                  "min_obstacle_distance_m", "obstacles"));
+                  "min_obstacle_distance_m", "obstacles", "guests",
+                  "min_guest_distance_m", "touched_by_guests"));
   const auto& vehicle = json["vehicles"][0];
   EXPECT_THAT(
       keys(vehicle),

@@ -41,6 +41,14 @@ std::string with_obstacle(const std::string& obstacle) {
   return kBegin + kVehicles + "obstacles: [" + obstacle + "]}";
 }
 
+const std::string kLimits =
+    "limits: {speed_mps: 1, acceleration_mps2: 1, deceleration_mps2: 1, curvature_per_m: 1}";
+const std::string kGuest = "id: 9, start: {x_m: 0, y_m: 0}, ";
+
+std::string with_guest(const std::string& guest) {
+  return kBegin + kVehicles + "guests: [{" + guest + "}]}";
+}
+
 std::string with_policy(const std::string& policy) {
   return kBegin + kVehicles + "policies: {p: " + policy + "}}";
 }
@@ -54,6 +62,14 @@ const std::vector<Place>& places() {
         kBegin + "circle: {cars: 1, radius_m: 1, centre_x_m: 0, centre_y_m: 0}, zz: 1}"}},
       {"priorities", {kBegin + kVehicles + "priorities: {zz: 1}}"}},
       {"obstacle", {with_obstacle("{name: a, zz: 1}")}},
+      {"guest",
+       {with_guest(kGuest + kLimits + ", drive: by_hand, zz: 1"),
+        with_guest(kGuest + kLimits + ", drive: track, track: t.csv, zz: 1"),
+        with_guest(kGuest + kLimits +
+                   ", drive: wander, area: {circle: {x_m: 0, y_m: 0, radius_m: 1}}, zz: 1")}},
+      {"pose", {with_guest("id: 9, start: {x_m: 0, y_m: 0, zz: 1}, " + kLimits)}},
+      {"guest_limits", {with_guest(kGuest + "limits: {zz: 1}")}},
+      {"footprint", {with_guest(kGuest + kLimits + ", footprint: {zz: 1}")}},
       {"rectangle",
        {with_obstacle("{name: a, rectangle: {x_m: 0, y_m: 0, length_m: 1, width_m: 1, zz: 1}}")}},
       {"disc", {with_obstacle("{name: a, circle: {x_m: 0, y_m: 0, radius_m: 1, zz: 1}}")}},

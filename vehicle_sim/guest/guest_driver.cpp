@@ -1,0 +1,112 @@
+#include "vehicle_sim/guest/guest_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/common/random_index.hpp"
+#include "planner/geometry/pose.hpp"
+
+namespace hlc::guest {
+namespace {
+
+constexpr double kCurvatureShare = 0.8;
+constexpr double kSpeedShare = 0.85;
+constexpr double kAccelerationShare = 0.7;
+
+constexpr double kTick_s = 1e-9 * static_cast<double>(kVehiclePeriod);
+/// Ahead of its time on a track.
+constexpr double kLookAhead_s = 0.4;
+/// Nearer than this to where it wants to be it has arrived.
+constexpr double kArrived_m = 0.15;
+constexpr double kLongestWay_s = 4.0;
+constexpr double kLongestStop_s = 3.0;
+constexpr double kStopShare = 0.2;
+constexpr double kLeastSpeedShare = 0.2;
+/// A slower car that is to stand rolls out.
+constexpr double kRollOut_mps = 0.25;
+
+Point along(const std::vector<TimedPoint>& track, double t_s) {
+  const auto after = std::ranges::upper_bound(track, t_s, {}, &TimedPoint::time_s);
+  if (after == track.begin()) return track.front().position_m;
+  if (after == track.end()) return track.back().position_m;
+  const TimedPoint& from = *std::prev(after);
+  const double share = (t_s - from.time_s) / (after->time_s - from.time_s);
+  return from.position_m + share * (after->position_m - from.position_m);
+}
+
+/// Of the arc from a pose to a point.
+double arc_curvature_per_m(const Pose& pose, const Point& towards_m) {
+  const Point offset_m = towards_m - pose.position_m();
+  const double left_m =
+      offset_m.y() * std::cos(pose.heading_rad) - offset_m.x() * std::sin(pose.heading_rad);
+  return 2.0 * left_m / std::max(offset_m.squaredNorm(), 1e-6);
+}
+
+}  // namespace
+
+GuestDriver::GuestDriver(GuestDriverOptions options)
+    : options_(std::move(options)), random_(options_.seed) {}
+
+std::variant<SpeedCurvatureCommand, DirectCommand> GuestDriver::tick(
+    Nanoseconds t_now, const vehicle::VehicleMotion& motion) {
+  if (!begin_) begin_ = t_now;
+  const double t_s = 1e-9 * static_cast<double>(t_now - *begin_);
+  const Wish wish = this->wish(t_s, motion.pose.position_m());
+  if (wish.speed_mps == 0.0 && motion.speed_mps <= kRollOut_mps) {
+    rolls_until_ = t_now + kCommandLifetime;
+    speed_mps_ = 0.0;
+    return DirectCommand{
+        .vehicle_id = options_.vehicle.value, .create_stamp = t_now, .valid_after_stamp = t_now};
+  }
+  const double tightest_per_m = kCurvatureShare * options_.limits.curvature_per_m;
+  if (t_now >= rolls_until_) change_speed(wish.speed_mps);
+  return SpeedCurvatureCommand{
+      .vehicle_id = options_.vehicle.value,
+      .create_stamp = t_now,
+      .valid_after_stamp = t_now,
+      .speed_mps = speed_mps_,
+      .curvature_per_m = std::clamp(arc_curvature_per_m(motion.pose, wish.towards_m),
+                                    -tightest_per_m, tightest_per_m)};
+}
+
+void GuestDriver::change_speed(double wanted_mps) {
+  const coordination::GuestLimits& limits = options_.limits;
+  const double faster_mps = kAccelerationShare * limits.acceleration_mps2 * kTick_s;
+  const double slower_mps = kAccelerationShare * limits.deceleration_mps2 * kTick_s;
+  speed_mps_ = std::clamp(std::clamp(wanted_mps, 0.0, kSpeedShare * limits.speed_mps),
+                          speed_mps_ - slower_mps, speed_mps_ + faster_mps);
+}
+
+GuestDriver::Wish GuestDriver::wish(double t_s, const Point& position_m) {
+  return options_.track.empty() ? wandering(t_s, position_m) : on_track(t_s, position_m);
+}
+
+GuestDriver::Wish GuestDriver::on_track(double t_s, const Point& position_m) const {
+  const Point towards_m = along(options_.track, t_s + kLookAhead_s);
+  const double distance_m = (towards_m - position_m).norm();
+  const bool is_over = t_s >= options_.track.back().time_s;
+  if (is_over && distance_m <= kArrived_m) return {.towards_m = towards_m, .speed_mps = 0.0};
+  return {.towards_m = towards_m, .speed_mps = distance_m / kLookAhead_s};
+}
+
+GuestDriver::Wish GuestDriver::wandering(double t_s, const Point& position_m) {
+  const bool is_there = (wandering_to_.towards_m - position_m).norm() <= kArrived_m;
+  const bool stands = wandering_to_.speed_mps == 0.0;
+  if (t_s < wanders_until_s_ && (stands || !is_there)) return wandering_to_;
+  const Point size_m = options_.home_m.max_m - options_.home_m.min_m;
+  const Point place(share(), share());
+  wandering_to_.towards_m = options_.home_m.min_m + place.cwiseProduct(size_m);
+  const double speed_share = kLeastSpeedShare + (1.0 - kLeastSpeedShare) * share();
+  const bool stops = share() < kStopShare;
+  wandering_to_.speed_mps = stops ? 0.0 : speed_share * options_.limits.speed_mps;
+  wanders_until_s_ = t_s + share() * (stops ? kLongestStop_s : kLongestWay_s);
+  return wandering_to_;
+}
+
+double GuestDriver::share() {
+  constexpr std::size_t kParts = 1U << 20U;
+  return static_cast<double>(random_index(random_, kParts)) / kParts;
+}
+
+}  // namespace hlc::guest
