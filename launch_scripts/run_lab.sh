@@ -141,10 +141,16 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $routes ]] || choices+=(--routes "$routes")
 check=("${choices[@]}")
 [[ -z $steps ]] || check+=(--steps "$steps")
-starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps --print_period) || exit 2
-period_ms=$(tail -n 1 <<<"$starts")
-steps=$(tail -n 2 <<<"$starts" | head -n 1)
-starts=$(head -n -2 <<<"$starts")
+starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps --print_period --print_guests) || exit 2
+guests=$(tail -n 1 <<<"$starts")
+period_ms=$(tail -n 2 <<<"$starts" | head -n 1)
+steps=$(tail -n 3 <<<"$starts" | head -n 1)
+starts=$(head -n -3 <<<"$starts")
+guest_ids=()
+[[ $guests == - ]] || mapfile -t guest_ids < <(tr , '\n' <<<"$guests")
+for id in "${guest_ids[@]}"; do
+  ((id <= 30)) || fail "scenario $scenario: guest $id, must be in 1 ... 30 in the lab; rollout and evaluate take more"
+done
 [[ $period_ms =~ ^[0-9]+$ && $((period_ms % 50)) == 0 ]] ||
   fail "scenario $scenario: the automaton's step_s is $period_ms ms, must be a multiple of 50 ms in the lab; rollout takes others"
 mapfile -t ids < <(awk '{print $1}' <<<"$starts")
@@ -338,10 +344,20 @@ for group in "${groups[@]}"; do
   HLC_DOMAINS_ARE_RESERVED=1 with_me "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
   children+=($!)
 done
-vehicles=("${children[@]}")
 recorded=()
 $messages && recorded=(--messages "$out/messages")
-with_me "$bin/lab_control" "${flags[@]}" "${recorded[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" --steps "$steps" \
+guest_flags=()
+if ((${#guest_ids[@]} > 0)); then
+  guest_flags=(--guest_ids "$guests")
+  seeds=""
+  [[ -z $noise_seed ]] || for id in "${guest_ids[@]}"; do seeds+=${seeds:+,}$((noise_seed + id)); done
+  with_me "$bin/vehicle_sim" --dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" "${secured[@]}" \
+    "${recorded[@]}" --vehicle_ids "$guests" --guests "$scenario" --stamps "$stamps" ${seeds:+--noise_seed "$seeds"} \
+    --startup_timeout_s $((startup_timeout_s + 10)) --record "$out/vehicle_{id}.csv" </dev/null >"$out/logs/guests.log" 2>&1 &
+  children+=($!)
+fi
+vehicles=("${children[@]}")
+with_me "$bin/lab_control" "${flags[@]}" "${recorded[@]}" --vehicle_ids "$(IFS=,; echo "${ids[*]}")" "${guest_flags[@]}" --steps "$steps" \
   --period_ms "$period_ms" --on_death "$on_death" --startup_timeout_s "$startup_timeout_s" </dev/null &
 children+=($!)
 lab_control=$!

@@ -24,6 +24,7 @@ struct Flags {
   int controller_domain{-1};
   std::vector<std::string> controller_peers;
   std::vector<int> vehicle_ids;
+  std::vector<int> guest_ids;
   std::uint64_t steps{150};
   std::uint64_t period_ms{200};
   std::string out;
@@ -39,6 +40,11 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--vehicle_ids", flags.vehicle_ids, "all vehicles of the run: 1,2,3")
       ->delimiter(',')
       ->required()
+      ->check(hlc::apps::vehicle_id_range());
+  app.add_option("--guest_ids", flags.guest_ids,
+                 "vehicles that take no part in the coordination, without controllers: 30; "
+                 "default: none")
+      ->delimiter(',')
       ->check(hlc::apps::vehicle_id_range());
   app.add_option("--steps", flags.steps, "control steps of the run")
       ->capture_default_str()
@@ -72,6 +78,11 @@ hlc::process::LabControlOptions process_options(const Flags& flags) {
   for (const int id : ids) {
     options.run.vehicle_ids.push_back(static_cast<std::uint8_t>(id));
   }
+  for (const int id : flags.guest_ids) {
+    options.run.guest_ids.push_back(static_cast<std::uint8_t>(id));
+    ids.push_back(id);
+  }
+  hlc::apps::check_each_once("--guest_ids", ids);
   options.run.period = flags.period_ms * hlc::kNanosecondsPerMillisecond;
   options.run.steps = flags.steps;
   options.run.startup_timeout =

@@ -17,11 +17,16 @@ std::vector<std::string> those_of(const std::vector<std::string>& names, Predica
 
 }  // namespace
 
-Attendance::Attendance(const std::vector<std::uint8_t>& vehicle_ids) {
+Attendance::Attendance(const std::vector<std::uint8_t>& vehicle_ids,
+                       const std::vector<std::uint8_t>& guest_ids) {
   for (const std::uint8_t id : vehicle_ids) {
     processes_.insert(processes_.end(),
                       {vehicle_name(id), middleware_name(id), controller_name(id)});
     timers_.insert(timers_.end(), {vehicle_name(id), middleware_name(id)});
+  }
+  for (const std::uint8_t id : guest_ids) {
+    processes_.push_back(vehicle_name(id));
+    timers_.push_back(vehicle_name(id));
   }
 }
 

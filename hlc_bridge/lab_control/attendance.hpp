@@ -11,10 +11,11 @@
 namespace hlc::lab_control {
 
 /// Live, lost and dropped processes of a run, and the readers of its triggers. Three processes per
-/// vehicle: vehicle, middleware, controller (messages/node_names).
+/// vehicle: vehicle, middleware, controller (messages/node_names); of a guest the vehicle only.
 class Attendance {
  public:
-  explicit Attendance(const std::vector<std::uint8_t>& vehicle_ids);
+  explicit Attendance(const std::vector<std::uint8_t>& vehicle_ids,
+                      const std::vector<std::uint8_t>& guest_ids = {});
 
   /// Live and lost participants; a name in both is lost.
   void update(const std::set<std::string>& alive, const std::set<std::string>& lost);

@@ -27,7 +27,7 @@ std::vector<std::string> controller_names(const std::vector<std::uint8_t>& ids) 
 
 LabRun::LabRun(LabRunSettings settings)
     : settings_{std::move(settings)},
-      attendance_{settings_.vehicle_ids},
+      attendance_{settings_.vehicle_ids, settings_.guest_ids},
       reports_{settings_.vehicle_ids},
       standing_{settings_.period} {}
 

@@ -26,6 +26,7 @@ enum class OnDeath : std::uint8_t {
 
 struct LabRunSettings {
   std::vector<std::uint8_t> vehicle_ids;
+  std::vector<std::uint8_t> guest_ids{};  ///< further vehicles, without controller and middleware
   Nanoseconds period{200'000'000};
   std::uint64_t steps{150};
   Nanoseconds startup_timeout{20 * kNanosecondsPerSecond};

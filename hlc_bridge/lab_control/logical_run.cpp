@@ -11,6 +11,7 @@ std::vector<std::string> timer_names(const LabRunSettings& settings) {
     names.push_back(vehicle_name(id));
     names.push_back(middleware_name(id));
   }
+  for (const std::uint8_t id : settings.guest_ids) names.push_back(vehicle_name(id));
   return names;
 }
 

@@ -25,12 +25,17 @@ std::vector<std::string> RealTimeRun::not_ready() const {
     if (ready_.count(middleware_name(id)) == 0) {
       lines.push_back(middleware_name(id));
     }
-    const auto vehicle = settled_.find(id);
-    if (vehicle == settled_.end() || !vehicle->second.have_settled()) {
-      lines.push_back(vehicle_name(id));
-    }
+    if (!has_settled(id)) lines.push_back(vehicle_name(id));
+  }
+  for (const std::uint8_t id : settings().guest_ids) {
+    if (!has_settled(id)) lines.push_back(vehicle_name(id));
   }
   return lines;
+}
+
+bool RealTimeRun::has_settled(std::uint8_t vehicle_id) const {
+  const auto vehicle = settled_.find(vehicle_id);
+  return vehicle != settled_.end() && vehicle->second.have_settled();
 }
 
 void RealTimeRun::go_on(LabRunActions& actions) {
@@ -42,6 +47,9 @@ void RealTimeRun::go_on(LabRunActions& actions) {
 
 void RealTimeRun::drop(const std::string& process) {
   ready_.erase(process);
+  for (const std::uint8_t id : settings().guest_ids) {
+    if (process == vehicle_name(id)) settled_.erase(id);
+  }
   for (const std::uint8_t id : settings().vehicle_ids) {
     if (process == vehicle_name(id)) {
       settled_.erase(id);

@@ -49,6 +49,7 @@ class RealTimeRun : public LabRun {
   [[nodiscard]] Nanoseconds wall_time_of(Nanoseconds t) const override { return t; }
 
  private:
+  [[nodiscard]] bool has_settled(std::uint8_t vehicle_id) const;
   /// When the living controller of the vehicle is dead unless it speaks (`report_due`), and unless
   /// it drives (`drive_due`); kNever if that is not to be expected.
   [[nodiscard]] Nanoseconds report_due(std::uint8_t vehicle_id) const;
