@@ -142,7 +142,7 @@ choices=(--scenario "$scenario" --profile "$profile")
 check=("${choices[@]}")
 [[ -z $steps ]] || check+=(--steps "$steps")
 starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps --print_period --print_guests) || exit 2
-guests=$(tail -n 1 <<<"$starts")
+read -r guests by_hand < <(tail -n 1 <<<"$starts")
 period_ms=$(tail -n 2 <<<"$starts" | head -n 1)
 steps=$(tail -n 3 <<<"$starts" | head -n 1)
 starts=$(head -n -3 <<<"$starts")
@@ -361,6 +361,9 @@ with_me "$bin/lab_control" "${flags[@]}" "${recorded[@]}" --vehicle_ids "$(IFS=,
   --period_ms "$period_ms" --on_death "$on_death" --startup_timeout_s "$startup_timeout_s" </dev/null &
 children+=($!)
 lab_control=$!
+
+[[ $by_hand == - ]] || echo "Guests that are driven by hand ($by_hand) wait for, each in a terminal of its own:
+  $bin/drive_by_hand --scenario ${scenario@Q} --vehicle_id ${by_hand%%,*} --dds_domain $dds_domain --transport $transport"
 
 # Lab control ends last, or nearly so: if it outlives all vehicles by far, it hangs.
 while any_runs "$lab_control" && any_runs "${vehicles[@]}"; do

@@ -38,6 +38,11 @@ inline constexpr const char* kLabControlName = "lab_control";
   return fmt::format("high_level_controller_{}", vehicle_id);
 }
 
+/// Of who drives a guest by hand.
+[[nodiscard]] inline std::string driver_name(std::uint8_t vehicle_id) {
+  return fmt::format("driver_{}", vehicle_id);
+}
+
 /// source_id with which a controller reports to its middleware that it is ready.
 [[nodiscard]] inline std::string controller_ready_id(std::uint8_t vehicle_id) {
   return fmt::format("hlc_{}", vehicle_id);

@@ -1,5 +1,7 @@
 // Checks a scenario, prints its vehicles and starts (with --starts in a form for scripts) and draws
 // it.
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -74,13 +76,18 @@ struct Parts {
   bool guests{};
 };
 
-/// Their ids, as flags take them; "-" without any.
+/// Ids of all guests, then of those that are driven by hand, as flags take them; "-" for none.
 std::string guest_ids(const hlc::scenario::Scenario& scenario) {
-  std::vector<unsigned> ids;
+  std::vector<unsigned> all;
+  std::vector<unsigned> by_hand;
   for (const hlc::scenario::ScenarioGuest& one : scenario.guests) {
-    ids.push_back(one.guest.vehicle.value);
+    all.push_back(one.guest.vehicle.value);
+    if (one.drive == hlc::scenario::GuestDrive::kByHand) by_hand.push_back(all.back());
   }
-  return ids.empty() ? "-" : fmt::format("{}", fmt::join(ids, ","));
+  const auto text_of = [](const std::vector<unsigned>& ids) {
+    return ids.empty() ? "-" : fmt::format("{}", fmt::join(ids, ","));
+  };
+  return text_of(all) + " " + text_of(by_hand);
 }
 
 void print(const hlc::scenario::Scenario& scenario, const Parts& parts) {
@@ -105,8 +112,9 @@ int main(int argc, char** argv) {
                "print only `id x,y,yaw stamps` per vehicle (the next one may follow)");
   app.add_flag("--print_steps", parts.steps, "print only the number of steps");
   app.add_flag("--print_period", parts.period, "print only the duration of a step [ms]");
-  app.add_flag("--print_guests", parts.guests,
-               "print only the guests' ids, as 29,30; - without any");
+  app.add_flag(
+      "--print_guests", parts.guests,
+      "print only the ids of all guests and of those driven by hand, as 29,30 30; - for none");
   hlc::apps::declare_output(app, plot,
                             "draw lanes, reference paths and cars at the start (SVG, PDF); with "
                             "--starts also their poses: a sheet to place them by");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -56,9 +58,12 @@ struct VehicleProcess::Vehicle {
         state{process.lab_, dds::topics::vehicle_state(id), on_presence(process)},
         trajectory{reader<TrajectoryCommand>(process, id)} {
     if (!process.recorders_.empty()) recorder = &process.recorders_.at(index);
-    if (process.options_.transport != dds::Transport::kLab) return;
-    observation.emplace(process.lab_, dds::topics::vehicle_observation(id));
-    path_tracking = reader<PathTrackingCommand>(process, id);
+    const bool is_in_lab = process.options_.transport == dds::Transport::kLab;
+    if (is_in_lab) {
+      observation.emplace(process.lab_, dds::topics::vehicle_observation(id));
+      path_tracking = reader<PathTrackingCommand>(process, id);
+    }
+    if (!is_in_lab && std::ranges::count(process.options_.guest_ids, id) == 0) return;
     speed_curvature = reader<SpeedCurvatureCommand>(process, id);
     direct = reader<DirectCommand>(process, id);
   }
@@ -74,7 +79,9 @@ struct VehicleProcess::Vehicle {
           process.shell_.post(OfVehicle<VehicleMachine::Event>{id, command});
         },
         on_presence(process),
-        dds::only_on_loopback<Command>(process.options_.transport, middleware_name(id)));
+        dds::only_on_loopback<Command>(
+            process.options_.transport,
+            std::is_same_v<Command, TrajectoryCommand> ? middleware_name(id) : driver_name(id)));
   }
 
   void perform(const ParameterRequest& /*request*/) {}  // the fleet's
@@ -92,7 +99,8 @@ struct VehicleProcess::Vehicle {
   DriveRecorder* recorder{};
   dds::Writer<VehicleState> state;
   std::unique_ptr<dds::Reader<TrajectoryCommand>> trajectory;
-  // What only the lab's programs send and receive: on the lab's transport.
+  // What only the lab's programs send and receive: on the lab's transport; the last two also for a
+  // guest, from who drives it by hand.
   std::optional<dds::Writer<VehicleObservation>> observation;
   std::unique_ptr<dds::Reader<PathTrackingCommand>> path_tracking;
   std::unique_ptr<dds::Reader<SpeedCurvatureCommand>> speed_curvature;

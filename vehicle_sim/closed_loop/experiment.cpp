@@ -76,8 +76,8 @@ class Lab {
       const std::uint8_t id = guest.guest.vehicle.value;
       std::optional<std::uint64_t> noise_seed;
       if (options.noise_seed) noise_seed = *options.noise_seed + id;
-      guests_.emplace(
-          id, simulated_vehicle::SimulatedVehicle(simulated_guest(guest, scenario, noise_seed)));
+      guests_.emplace(id, simulated_vehicle::SimulatedVehicle(simulated_vehicle::guest_vehicle(
+                              guest, noise_seed, options.stamps.value_or(stamps_of(scenario)))));
     }
     forks_.emplace(options.forks, scenario, members_);
   }

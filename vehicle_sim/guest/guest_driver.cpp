@@ -10,11 +10,6 @@
 namespace hlc::guest {
 namespace {
 
-constexpr double kCurvatureShare = 0.8;
-constexpr double kSpeedShare = 0.85;
-constexpr double kAccelerationShare = 0.7;
-
-constexpr double kTick_s = 1e-9 * static_cast<double>(kVehiclePeriod);
 /// Ahead of its time on a track.
 constexpr double kLookAhead_s = 0.4;
 /// Nearer than this to where it wants to be it has arrived.
@@ -23,8 +18,6 @@ constexpr double kLongestWay_s = 4.0;
 constexpr double kLongestStop_s = 3.0;
 constexpr double kStopShare = 0.2;
 constexpr double kLeastSpeedShare = 0.2;
-/// A slower car that is to stand rolls out.
-constexpr double kRollOut_mps = 0.25;
 
 Point along(const std::vector<TimedPoint>& track, double t_s) {
   const auto after = std::ranges::upper_bound(track, t_s, {}, &TimedPoint::time_s);
@@ -46,36 +39,15 @@ double arc_curvature_per_m(const Pose& pose, const Point& towards_m) {
 }  // namespace
 
 GuestDriver::GuestDriver(GuestDriverOptions options)
-    : options_(std::move(options)), random_(options_.seed) {}
+    : options_(std::move(options)),
+      random_(options_.seed),
+      commands_(options_.vehicle, options_.limits) {}
 
-std::variant<SpeedCurvatureCommand, DirectCommand> GuestDriver::tick(
-    Nanoseconds t_now, const vehicle::VehicleMotion& motion) {
+DriverCommand GuestDriver::tick(Nanoseconds t_now, const vehicle::VehicleMotion& motion) {
   if (!begin_) begin_ = t_now;
   const double t_s = 1e-9 * static_cast<double>(t_now - *begin_);
   const Wish wish = this->wish(t_s, motion.pose.position_m());
-  if (wish.speed_mps == 0.0 && motion.speed_mps <= kRollOut_mps) {
-    rolls_until_ = t_now + kCommandLifetime;
-    speed_mps_ = 0.0;
-    return DirectCommand{
-        .vehicle_id = options_.vehicle.value, .create_stamp = t_now, .valid_after_stamp = t_now};
-  }
-  const double tightest_per_m = kCurvatureShare * options_.limits.curvature_per_m;
-  if (t_now >= rolls_until_) change_speed(wish.speed_mps);
-  return SpeedCurvatureCommand{
-      .vehicle_id = options_.vehicle.value,
-      .create_stamp = t_now,
-      .valid_after_stamp = t_now,
-      .speed_mps = speed_mps_,
-      .curvature_per_m = std::clamp(arc_curvature_per_m(motion.pose, wish.towards_m),
-                                    -tightest_per_m, tightest_per_m)};
-}
-
-void GuestDriver::change_speed(double wanted_mps) {
-  const coordination::GuestLimits& limits = options_.limits;
-  const double faster_mps = kAccelerationShare * limits.acceleration_mps2 * kTick_s;
-  const double slower_mps = kAccelerationShare * limits.deceleration_mps2 * kTick_s;
-  speed_mps_ = std::clamp(std::clamp(wanted_mps, 0.0, kSpeedShare * limits.speed_mps),
-                          speed_mps_ - slower_mps, speed_mps_ + faster_mps);
+  return commands_.tick(t_now, wish.speed_mps, arc_curvature_per_m(motion.pose, wish.towards_m));
 }
 
 GuestDriver::Wish GuestDriver::wish(double t_s, const Point& position_m) {

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <random>
-#include <variant>
 #include <vector>
 
 #include "hlc_bridge/messages/messages.hpp"
@@ -10,6 +9,7 @@
 #include "planner/geometry/polygon.hpp"
 #include "planner/geometry/timed_curve.hpp"
 #include "planner/vehicle/identified_motion.hpp"
+#include "vehicle_sim/guest/driver_commands.hpp"
 
 namespace hlc::guest {
 
@@ -24,17 +24,12 @@ struct GuestDriverOptions {
 
 /// Drives a guest as a human does: looks at a point ahead and steers towards it on a circular arc
 /// (pure pursuit). It knows nothing of the other vehicles, and is deterministic.
-///
-/// Its commands stay that far below the limits that an identified µCar that follows them keeps
-/// these (guest_driver_test): 0.8 of the curvature, 0.85 of the speed, 0.7 of the accelerations. To
-/// stand it lets the car roll out from 0.25 m/s on: the lab's speed control would drive it back.
 class GuestDriver {
  public:
   explicit GuestDriver(GuestDriverOptions options);
 
   /// Command for the tick of 20 ms at `t_now`. @param t_now  increasing
-  [[nodiscard]] std::variant<SpeedCurvatureCommand, DirectCommand> tick(
-      Nanoseconds t_now, const vehicle::VehicleMotion& motion);
+  [[nodiscard]] DriverCommand tick(Nanoseconds t_now, const vehicle::VehicleMotion& motion);
 
  private:
   struct Wish {
@@ -44,14 +39,12 @@ class GuestDriver {
   [[nodiscard]] Wish wish(double t_s, const Point& position_m);
   [[nodiscard]] Wish on_track(double t_s, const Point& position_m) const;
   [[nodiscard]] Wish wandering(double t_s, const Point& position_m);
-  void change_speed(double wanted_mps);
   [[nodiscard]] double share();
 
   GuestDriverOptions options_;
   std::mt19937_64 random_;
   std::optional<Nanoseconds> begin_;  ///< first tick
-  double speed_mps_{};                ///< commanded last
-  Nanoseconds rolls_until_{};         ///< until then it obeys the command to roll out
+  DriverCommands commands_;
   Wish wandering_to_{};
   double wanders_until_s_{};
 };
