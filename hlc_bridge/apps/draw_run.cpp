@@ -156,6 +156,7 @@ std::string page_of(hlc::record::RunFolder run) {
   page.facts = std::move(run.facts);
   page.rows = std::move(run.rows);
   page.drives = std::move(run.drives);
+  page.show_guests();
   return hlc::view::picture_page(page);
 }
 

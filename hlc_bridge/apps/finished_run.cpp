@@ -51,6 +51,7 @@ view::FinishedRun finished_run(record::RunFolder read, std::string fault) {
   run.drives = std::move(read.drives);
   run.revision = program_revision();
   run.fault = std::move(fault);
+  run.show_guests();
   for (const std::string& line : read.incomplete)
     run.fault += (run.fault.empty() ? "" : "; ") + line;
   return run;

@@ -100,11 +100,11 @@ hlc::view::FinishedRun begin_of_run(const Flags& flags) {
   for (const hlc::result::VehicleDescription& vehicle : run.description.vehicles) {
     run.facts.vehicle_ids.push_back(vehicle.id.value);
   }
+  run.show_guests();
   return run;
 }
 
-hlc::live::ListenerOptions listener_options(const Flags& flags,
-                                            const std::vector<std::uint8_t>& vehicle_ids) {
+hlc::live::ListenerOptions listener_options(const Flags& flags, const hlc::view::FinishedRun& run) {
   const hlc::apps::NetworkFlags& network = flags.network;
   hlc::live::ListenerOptions options;
   options.transport = hlc::dds::transport_from_name(network.transport);
@@ -122,7 +122,12 @@ hlc::live::ListenerOptions listener_options(const Flags& flags,
   options.security = network.security;
   hlc::dds::check_addresses("--controller_peers", flags.controller_peers);
   options.controller_peers = flags.controller_peers;
-  options.vehicle_ids = vehicle_ids;
+  for (const hlc::result::VehicleDescription& guest : run.description.guests) {
+    options.guest_ids.push_back(guest.id.value);
+  }
+  std::ranges::copy_if(
+      run.facts.vehicle_ids, std::back_inserter(options.vehicle_ids),
+      [&](std::uint8_t id) { return std::ranges::count(options.guest_ids, id) == 0; });
   return options;
 }
 
@@ -132,7 +137,7 @@ class View {
       : history_(std::to_string(hlc::time::real_time_now())),
         newest_(std::to_string(hlc::time::real_time_now())),
         server_(flags.server, history_, newest_),
-        listener_(listener_options(flags, run.facts.vehicle_ids)),
+        listener_(listener_options(flags, run)),
         logs_(flags.logs),
         scene_(run),
         messages_(std::move(run)) {

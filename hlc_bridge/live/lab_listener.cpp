@@ -37,7 +37,9 @@ LabListener::LabListener(const ListenerOptions& options)
             signal_.post([&] { received_.reports.push_back(record); });
           },
           {}, dds::kItsController) {
-  for (const std::uint8_t id : vehicle_ids_) {
+  std::vector<std::uint8_t> ids = options.vehicle_ids;
+  ids.insert(ids.end(), options.guest_ids.begin(), options.guest_ids.end());
+  for (const std::uint8_t id : ids) {
     states_.emplace_back(
         lab_, dds::topics::vehicle_state(id),
         [this](const VehicleState& state) {

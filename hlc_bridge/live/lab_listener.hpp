@@ -25,6 +25,7 @@ struct ListenerOptions {
   std::filesystem::path security{};           ///< ParticipantOptions
   std::vector<std::string> controller_peers;  ///< ParticipantOptions::peers
   std::vector<std::uint8_t> vehicle_ids;
+  std::vector<std::uint8_t> guest_ids{};  ///< further vehicles, without controllers
 };
 
 /// Listens to the reports and states of a run, and publishes nothing. No process of the run waits

@@ -52,6 +52,14 @@ struct FinishedRun {
   /// How a step can be explained, or why not: VEHICLE and STEP stand for their numbers; empty:
   /// nothing is known of that yet.
   std::string how_explained;
+
+  /// Lets pages and pictures show the guests, too: behind the others, as cars that never plan.
+  void show_guests() {
+    for (const result::VehicleDescription& guest : description.guests) {
+      facts.vehicle_ids.push_back(guest.id.value);
+      description.vehicles.push_back(guest);
+    }
+  }
 };
 
 /// All messages of the run as one JSON array. Equal runs give equal bytes. Bytes that are not UTF-8

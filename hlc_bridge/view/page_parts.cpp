@@ -149,6 +149,10 @@ Json run_message(const FinishedRun& run) {
     if (!takes_part(vehicle.id, run.facts)) continue;
     json["vehicles"].push_back(vehicle_json(vehicle));
     json["vehicles"].back()["colour"] = colours.at(vehicle.id);
+    const bool is_guest =
+        std::ranges::find(description.guests, vehicle.id, &result::VehicleDescription::id) !=
+        description.guests.end();
+    if (is_guest) json["vehicles"].back()["guest"] = true;
   }
   return json;
 }

@@ -28,11 +28,13 @@ Point along(const std::vector<TimedPoint>& track, double t_s) {
   return from.position_m + share * (after->position_m - from.position_m);
 }
 
-/// Of the arc from a pose to a point.
+/// Of the arc from a pose to a point; to one behind it as tight as can be.
 double arc_curvature_per_m(const Pose& pose, const Point& towards_m) {
+  constexpr double kTight_per_m = 1e3;
+  const Point ahead(std::cos(pose.heading_rad), std::sin(pose.heading_rad));
   const Point offset_m = towards_m - pose.position_m();
-  const double left_m =
-      offset_m.y() * std::cos(pose.heading_rad) - offset_m.x() * std::sin(pose.heading_rad);
+  const double left_m = ahead.x() * offset_m.y() - ahead.y() * offset_m.x();
+  if (ahead.dot(offset_m) < 0.0) return std::copysign(kTight_per_m, left_m);
   return 2.0 * left_m / std::max(offset_m.squaredNorm(), 1e-6);
 }
 

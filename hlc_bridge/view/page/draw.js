@@ -24,7 +24,7 @@ function path_at(pose, points, closed = true) {
   return path_through(points.map((point) => point_in(pose, point)), closed);
 }
 
-/// Cleared and adapted to page and screen, with one unit per px of the page.
+/// Cleared and adapted to the screen, one unit per px of the page.
 export function clean_context(canvas) {
   const ratio = devicePixelRatio;
   canvas.width = Math.round(canvas.clientWidth * ratio); // clears it

@@ -209,7 +209,7 @@ export class Run {
     return { places: cells(places), zones: [...held], next: of(zones, count) };
   }
 
-  /// Box of all there is to see.
+  /// Box of all.
   box() {
     let points = this.lanes.flat(2).concat(this.about.obstacles.flatMap((one) => one.points));
     for (const vehicle of this.vehicles) {

@@ -19,6 +19,7 @@ export function state_of(run, vehicle, t) {
   const state = (kind, words, short = "") => ({ kind, words, short });
   const { unknown } = run.about.words.kinds;
   const report = run.report_at(vehicle, t);
+  if (vehicle.guest) return state("drives", "guest");
   if (!report) return state("silent", "no report in this step", "no report");
   const driven = run.driven_at(vehicle, t);
   const stands = driven && Math.abs(driven.speed) < 0.025; // m/s

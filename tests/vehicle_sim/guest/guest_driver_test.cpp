@@ -72,6 +72,10 @@ TEST(GuestDriver, AnIdentifiedCarThatItDrivesStaysInReach) {
       fastest_mps = std::max(fastest_mps, tick.driven.speed_mps);
     }
     EXPECT_GT(fastest_mps, 0.5 * kLimits.speed_mps);
+    for (const SimulatedVehicle::Tick& tick : ticks) {
+      const Point off_m = tick.driven.pose.position_m() - Point(2.25, 2.0);
+      ASSERT_LT(off_m.norm(), 4.0) << "it went for good";
+    }
     const std::size_t last = kTicks - (kHorizonSteps + 1) * kTicksOfStep - 1;
     for (std::size_t tick = 0; tick < last; tick += kTicksOfStep) {
       expect_in_reach(ticks, tick, guest);
