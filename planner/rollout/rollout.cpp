@@ -1,6 +1,9 @@
 #include "planner/rollout/rollout.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <stdexcept>
 
 #include "planner/common/demand.hpp"
 #include "planner/controller/followed_plan.hpp"
@@ -77,6 +80,11 @@ std::vector<coordination::Report> Rollout::step() {
 }
 
 Rollout make_rollout(const scenario::Scenario& scenario) {
+  if (!scenario.guests.empty()) {
+    throw std::invalid_argument(
+        fmt::format("{}: guests = {}, must be 0 here: run_lab.sh and evaluate drive them",
+                    scenario.file.string(), scenario.guests.size()));
+  }
   std::vector<std::unique_ptr<controller::Controller>> controllers;
   std::vector<Pose> starts;
   const controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(scenario);

@@ -57,6 +57,7 @@ class Rollout {
 };
 
 /// All vehicles of the scenario, standing at their starts, with its policy, if it has one.
+/// @throws std::invalid_argument with one line if it has guests: nobody drives them here
 [[nodiscard]] Rollout make_rollout(const scenario::Scenario& scenario);
 
 }  // namespace hlc::rollout

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "hlc_bridge/messages/node_names.hpp"
@@ -253,6 +255,26 @@ TEST(LogicalRun, ControllersStopRequestEndsTheRun) {
   EXPECT_EQ(run.advance(2).triggers.front(), kStopSymbol);
   EXPECT_EQ(run.result().exit_code, kExitDied);
   EXPECT_EQ(run.result().reason, "high_level_controller_2 requested the stop");
+}
+
+/// A guest has a vehicle, but neither controller nor middleware.
+TEST(LogicalRunWithAGuest, AwaitsItsVehicleAndItsTicksAlone) {
+  LabRunSettings with_guest = settings({1}, 5);
+  with_guest.guest_ids = {9};
+  LogicalRun run(with_guest);
+  std::set<std::string> alive{vehicle_name(1), middleware_name(1), controller_name(1)};
+  run.presence(alive, {});
+  EXPECT_THAT(run.advance(0).triggers, IsEmpty());
+  EXPECT_THAT(run.waiting_for(), HasSubstr("missing: " + vehicle_name(9)));
+  alive.insert(vehicle_name(9));
+  run.presence(alive, {});
+  run.trigger_readers({vehicle_name(1), middleware_name(1), vehicle_name(9)});
+  run.ready({vehicle_name(1), 0});
+  run.ready({middleware_name(1), kListOffset});
+  EXPECT_THAT(run.advance(1).triggers, IsEmpty());
+  EXPECT_THAT(run.waiting_for(), HasSubstr("not ready: " + vehicle_name(9)));
+  run.ready({vehicle_name(9), 0});
+  EXPECT_THAT(run.advance(2).triggers, ElementsAre(0U));
 }
 
 }  // namespace

@@ -146,6 +146,22 @@ TEST_F(LogicalVehicle, ATickWaitsForTheAnswerToTheLastList) {
   EXPECT_EQ(vehicle_.wake_up().run, 2 * kTick);
 }
 
+/// It has neither controller nor middleware; nor has the other vehicle, which is one, too.
+TEST_F(LogicalVehicle, AGuestWaitsForNobodysAnswer) {
+  VehicleMachineOptions guest = options(machine::logical_rules());
+  guest.guest_ids = {kId};
+  vehicle_ = VehicleMachine(guest);
+  VehiclePresence presence = all_present();
+  presence.state_readers.names.erase(middleware_name(kId));
+  presence.command_writers.names.clear();
+  vehicle_.on(presence);
+  publish_parameters();
+  EXPECT_THAT(advance(), IsEmpty());
+  ASSERT_EQ(vehicle_.wake_up().run, 0U);
+  EXPECT_EQ(of<VehicleState>(release()).size(), 1U);
+  EXPECT_EQ(of<VehicleState>(release()).size(), 1U) << "no answer has come";
+}
+
 TEST_F(LogicalVehicle, ACommandStampedFarAheadIsNoAnswer) {
   wait_for_answer();
   vehicle_.on(answer_to(~Nanoseconds{}));
