@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "planner/automaton/requested_subgraph.hpp"
+
 namespace hlc::scenario {
 namespace {
 
@@ -30,7 +31,7 @@ double top_trim_speed_mps(const automaton::Subgraph& subgraph) {
 /// Trims that differ by less steer alike, and are equally fast.
 constexpr double kTrimRounding = 1e-9;
 
-/// The slowest straight trim that is not slower.
+/// Of the trims that are not slower the straightest, of these the slowest.
 std::optional<double> straight_trim_speed_mps(const automaton::Subgraph& subgraph,
                                               double speed_mps) {
   std::optional<double> found;

@@ -24,9 +24,9 @@ namespace hlc::scenario {
                                                                 const road::Route& route,
                                                                 const std::string& benchmark_id);
 
-/// Of a vehicle with this reference speed of its own: without the trims that are faster than the
-/// slowest straight one that is not slower than the speed. Without such a one, or a faster trim,
-/// the scenario's subgraph itself.
+/// Of a vehicle with this reference speed of its own: the scenario's subgraph without the trims
+/// that are faster than the one needed, which is of those that are not slower than the speed the
+/// straightest, of several the slowest. The scenario's subgraph itself if no trim is faster.
 /// @throws std::invalid_argument as requested_subgraph
 [[nodiscard]] std::shared_ptr<const automaton::Subgraph> subgraph_at(
     const std::shared_ptr<const automaton::Subgraph>& subgraph, double reference_speed_mps,

@@ -4,11 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 
+#include "planner/common/text_file.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "tests/planner/scenario/changed_scenario.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace hlc::scenario::reference_speeds_test {
 namespace {
@@ -146,6 +149,22 @@ TEST(ReferenceSpeeds, ThatNoCarDrivesAreRefused) {
                                {kSection, "[{from: 4, to: 5, reference_speed_mps: 0.7}]"}}),
       HasSubstr("sections.ZAM_LabLike-1_1_T-1[1].reference_speed_mps = 0.7, must be <= 0.6, the "
                 "highest reference speed of a vehicle: a section makes none faster"));
+}
+
+TEST(ReferenceSpeeds, AtWhichACarCouldNotStartAndStopAreRefused) {
+  // Of this subgraph only the fast trim is next to standstill.
+  const test::TemporaryFolder folder;
+  const std::string automaton = (folder / "fast.yaml").string();
+  std::ofstream(automaton) << read_file(test::source_folder() +
+                                        "/launch_scripts/automata/ucar_speeds.yaml")
+                           << "  - {name: fast, label: J2, trims: [1, 4, 14], rule: reachable, "
+                              "disabled_edges: [{from: 1, to: 4}, {from: 4, to: 1}]}\n";
+  EXPECT_THAT(
+      test::error_of_scenario("speeds", "",
+                              {{"../automata/ucar_speeds.yaml", automaton},
+                               {"subgraph: J2", "subgraph: fast"},
+                               {kOwn, "reference_speed_mps: 0.4}"}}),
+      HasSubstr("vehicles[1].reference_speed_mps = 0.4, must be one at which the car can stop: "));
 }
 
 TEST(ReferenceSpeeds, OfSectionsThatTheRouteDoesNotHaveAreRefused) {
