@@ -10,6 +10,7 @@ area of a vehicle during step s under the plan that is in force as step k ends.
   plan        A_k(k) holds A_(k-1)(k); a plan that was kept has the areas that it had, A_k(s) = A_(k-1)(s) for s >= k;
   line        every line touches the own area of its step, and what was known of the other vehicle is beyond it;
   pair        two vehicles share no point from step k+1 on, coupled ones by a line, if not both have kept their plan;
+  obstacle    no area from step k+1 on and no driven footprint overlaps an obstacle that stands then (summary.json);
   driven      the driven footprint lies in the area of its step, beyond the others' lines (at most half a second late).
 Counted, not rejected: pairs and poses of a vehicle to whose areas nobody has agreed (off its plan, not seen, or new).
 """
@@ -23,6 +24,8 @@ import pathlib
 import re
 import subprocess
 import sys
+
+from convex_areas import beyond, outside, overlap, size
 
 TOUCH_M = 1e-6  # a line and the area that it touches; a corner and the lines of the edges
 APART_M = 2e-5  # overlap of areas that are apart: a standstill may lie 2 um outside the last area of its plan
@@ -93,37 +96,6 @@ def rows_of(file, make):
     return made
 
 
-def beyond(area, line):
-    """Of the corners, the least and the largest distance on the far side of the line [m]."""
-    distances = [line[0] * x + line[1] * y - line[2] for x, y in area]
-    return min(distances), max(distances)
-
-
-def edges(area):  # (n_x, n_y, offset) of each, n pointing outwards
-    found = []
-    for (ax, ay), (bx, by) in zip(area, area[1:] + area[:1]):
-        if (length := math.hypot(bx - ax, by - ay)) > 1e-9:  # of a shorter one the direction is rounding
-            n = ((by - ay) / length, (ax - bx) / length)
-            found.append((*n, n[0] * ax + n[1] * ay))
-    return found
-
-
-def overlap(a, b):
-    """How far one must move to be apart, over the normals of all edges [m]; < 0: they are, by so much at least."""
-    gap = max(min(p[i] for p in one) - max(p[i] for p in other) for one, other in ((a, b), (b, a)) for i in (0, 1))
-    if gap > 0:  # along an axis: most pairs
-        return -gap
-    return min(-beyond(other, line)[0] for one, other in ((a, b), (b, a)) for line in edges(one))
-
-
-def outside(outer, inner):  # how far `inner` reaches out of the convex `outer` [m]
-    return max(beyond(inner, line)[1] for line in edges(outer))
-
-
-def size(area):  # [m^2], > 0 counter-clockwise
-    return sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(area, area[1:] + area[:1])) / 2
-
-
 def report(row):
     if (status := row["status"]) not in ("standby", "planned", "fallback", "minimal_risk_stop"):
         raise ValueError(f"status = {status}, must be standby, planned, fallback or minimal_risk_stop")
@@ -146,6 +118,7 @@ class Check:
             self.out_since, self.late_m = {}, LATE_M if facts["simulated_time"] else math.inf
             if self.period <= 0:
                 raise ValueError(f"period_ns = {self.period}, must be > 0")
+            self.obstacles = self.standing(run / "summary.json", int(facts["first_step"] or 0))
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise Unreadable(f"{run / 'run.json'}: {type(error).__name__}: {error}") from error
         files = [(vehicle, run / f"vehicle_{vehicle}.csv") for vehicle in vehicles]
@@ -162,6 +135,25 @@ class Check:
             self.certificates[one.step, one.id] = one
         self.horizon = max((len(ls) for one in self.certificates.values() for _, _, ls in one.separations), default=0)
 
+    def standing(self, file, first_step):  # (from step, name, area) of each obstacle
+        if not file.exists():
+            return self.counts.update(["runs without summary.json, obstacles unknown"]) or []
+        try:
+            listed = json.loads(file.read_text(encoding="utf-8"))["obstacles"]
+            found = [(first_step + int(one["from_step"]), one["name"],
+                      [tuple(map(float, corner)) for corner in one["corners_m"]]) for one in listed]
+            if any(not math.isfinite(size(area)) or size(area) <= 0 for _, _, area in found):
+                raise ValueError("obstacles: corners_m, must be convex and counter-clockwise")
+            return found
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise Unreadable(f"{file}: {type(error).__name__}: {error}") from error
+
+    def clear(self, step, vehicle, area, what, *file):
+        for since, name, obstacle in self.obstacles:
+            if step >= since and (depth := overlap(area, obstacle)) > APART_M:
+                text = f"{what} overlaps {name or 'an obstacle'} by {mm(depth)}"
+                self.reject("obstacle", step, vehicle, text, f"<= {mm(APART_M)}", *file)
+
     def reject(self, check, step, vehicle, what, allowed, file="certificates.csv"):
         self.violations.append(f"{file}: vehicle {vehicle}, step {step}: {check}: {what}, must be {allowed}")
 
@@ -175,6 +167,8 @@ class Check:
         self.counts["steps of a vehicle"] = len(sound)
         for one in self.certificates.values():
             self.plan(one)
+            for step in range(one.step + 1, max(one.end, one.step + 1) + 1) if one.is_agreed else ():
+                self.clear(one.step, one.id, one.during(step), f"the area during step {step}")
             for separation in one.separations:
                 self.lines(one, *separation)
         for _, ones in itertools.groupby(self.certificates.values(), lambda one: one.step):
@@ -257,6 +251,7 @@ class Check:
         if not (plans := [self.certificates[key] for key in keys if key in self.certificates]):
             return self.counts.update(["driven poses without a plan"])
         driven = plans[0].footprint(x, y, yaw)
+        self.clear(step, vehicle, driven, f"the footprint at {time / 1e9:.2f} s", f"vehicle_{vehicle}.csv")
         out = min(outside(one.during(step), driven) for one in plans)
         out = max([out] + [-beyond(driven, line)[0] for line in self.against[step, vehicle]])
         near = [self.certificates.get((k, vehicle)) for k in range(step - 1, step + BEFORE_STEPS + 1)]

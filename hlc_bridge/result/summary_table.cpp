@@ -149,13 +149,13 @@ std::string legend(const RunSummary& summary) {
 std::string summary_table(const RunSummary& summary) {
   const RunDescription& run = summary.description;
   std::string text = fmt::format(
-      "{}: {} steps of {:g} s, horizon {}, subgraph {}{}{}{}, profile {}, map {}, {}\n\n",
-      run.scenario, summary.steps, run.step_s, run.horizon_steps, run.subgraph,
+      "{}: {} steps of {:g} s, horizon {}, subgraph {}{}{}{}, profile {}, {}, {}\n\n", run.scenario,
+      summary.steps, run.step_s, run.horizon_steps, run.subgraph,
       run.policy == policy::kNoPolicy ? "" : ", policy " + run.policy,
       run.has_two_rounds ? ", two rounds" : "",
       run.priorities == coordination::kConstantPriorities.name ? ""
                                                                : ", priorities " + run.priorities,
-      run.profile, run.map,
+      run.profile, run.map.empty() ? "no map" : "map " + run.map,
       run.noise_seed ? fmt::format("noise seed {}", *run.noise_seed) : "no noise");
   const int laps = lap_width(summary);
   text +=

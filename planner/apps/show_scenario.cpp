@@ -17,6 +17,19 @@ namespace {
 
 constexpr int kExitFailed = 2;
 
+/// Of vehicles that have one of their own, and sections of their routes.
+void print_speeds(const hlc::scenario::Scenario& scenario) {
+  for (const hlc::scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
+    if (vehicle.reference_speed_mps) {
+      std::printf("speed      %s, %g m/s\n", vehicle.name.c_str(), *vehicle.reference_speed_mps);
+    }
+    for (const hlc::road::SpeedSection& section : vehicle.speed_sections) {
+      std::printf("section    %s, %.3f ... %.3f m, %g m/s\n", vehicle.name.c_str(),
+                  section.from_s_m, section.to_s_m, section.speed_mps);
+    }
+  }
+}
+
 void print_table(const hlc::scenario::Scenario& scenario) {
   std::printf("scenario   %s, %zu steps of %g s, horizon %zu steps\n", scenario.name.c_str(),
               scenario.steps, scenario.subgraph->automaton().step_s, scenario.horizon_steps);
@@ -44,6 +57,7 @@ void print_table(const hlc::scenario::Scenario& scenario) {
     std::printf("obstacle   %s, x %.3f ... %.3f m, y %.3f ... %.3f m\n", one.name.c_str(),
                 box.min_m.x(), box.max_m.x(), box.min_m.y(), box.max_m.y());
   }
+  print_speeds(scenario);
   std::printf("%4s  %-10s %9s %9s %9s %11s\n", "id", "name", "path [m]", "start [m]", "x [m]",
               "y [m]");
   for (const hlc::scenario::ScenarioVehicle& vehicle : scenario.vehicles) {

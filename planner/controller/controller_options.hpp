@@ -85,7 +85,7 @@ inline constexpr double kMostContouringWeight = 1e4;
 struct ControllerOptions {
   VehicleId vehicle;
   std::size_t horizon_steps{8};
-  double reference_speed_mps{0.8};
+  double reference_speed_mps{0.8};  ///< outside slower sections of the route
   /// w of HorizonProblem: how much more an error across the path counts than one along it. 0: as in
   /// the paper.
   double contouring_weight{};

@@ -78,6 +78,11 @@ void add(WordHash& hash, const road::DrivableRoute& route) {
   }
   add(hash, route.corridor.ground_m().min_m);
   add(hash, route.corridor.ground_m().max_m);
+  for (const road::SpeedSection& section : route.speed_sections) {
+    for (const double value : {section.from_s_m, section.to_s_m, section.speed_mps}) {
+      hash.add(value);
+    }
+  }
 }
 
 void add(WordHash& hash, const std::optional<vehicle::LabLimits>& lab) {

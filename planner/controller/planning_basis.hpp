@@ -14,7 +14,7 @@ namespace hlc::controller {
 
 /// Of the automaton (motions, areas, criteria) and of the enabled part of it.
 [[nodiscard]] std::uint64_t digest_of(const automaton::Subgraph& subgraph);
-/// Of the permitted routes: paths, bounds, driving lines.
+/// Of the permitted routes: paths, bounds, driving lines, speed sections.
 [[nodiscard]] std::uint64_t digest_of(std::span<const road::DrivableRoute> routes);
 /// Of the rules by which a controller plans and coordinates, without its vehicle. A user's own
 /// function counts as any other one of its kind.

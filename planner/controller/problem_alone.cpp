@@ -39,7 +39,8 @@ road::Reference reference_alone(const coordination::Traffic& own, const RouteTra
                subgraph.spec().max_speed_mps.value_or(options.reference_speed_mps));
   road::Reference reference = road::reference_points(
       tracker.route().path, s_m, automaton.trims[own.next_trim.index].speed_mps, speed_mps,
-      options.horizon_steps, automaton.step_s, options.reference_rule);
+      options.horizon_steps, automaton.step_s, options.reference_rule,
+      tracker.route().speed_sections);
   return road::reference_on(tracker.route().driving_line, tracker.route().path,
                             std::move(reference), end_s_m);
 }

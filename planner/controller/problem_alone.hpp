@@ -12,7 +12,8 @@ namespace hlc::controller {
 
 /// The reference points that the vehicle has when its plan begins at the pose announced in its
 /// traffic: by the reference speed of the options, or the speed limit of the subgraph if that is
-/// lower, because a reference that the subgraph cannot follow pulls the plans across the bends.
+/// lower, because a reference that the subgraph cannot follow pulls the plans across the bends; in
+/// the route's speed sections not faster than they allow.
 /// @param s_m  its place on its route then. Others as below
 [[nodiscard]] road::Reference reference_alone(const coordination::Traffic& own,
                                               const RouteTracker& tracker, double s_m,

@@ -21,14 +21,16 @@ Json lanelets_of(const scenario::Scenario& scenario) {
 
 Json vehicle_of(const scenario::Scenario& scenario, const scenario::ScenarioVehicle& vehicle) {
   const Pose start = scenario::measured_start(scenario, vehicle);
-  return {{"id", vehicle.id.value},
-          {"name", vehicle.name},
-          {"start", {{"x_m", start.x_m}, {"y_m", start.y_m}, {"yaw_rad", start.heading_rad}}},
-          {"start_s_m", vehicle.start_s_m},
-          {"path",
-           {{"is_closed", vehicle.path.is_closed()},
-            {"length_m", vehicle.path.length_m()},
-            {"points_m", json_points(vehicle.path.points_m())}}}};
+  Json data{{"id", vehicle.id.value},
+            {"name", vehicle.name},
+            {"start", {{"x_m", start.x_m}, {"y_m", start.y_m}, {"yaw_rad", start.heading_rad}}},
+            {"start_s_m", vehicle.start_s_m},
+            {"path",
+             {{"is_closed", vehicle.path.is_closed()},
+              {"length_m", vehicle.path.length_m()},
+              {"points_m", json_points(vehicle.path.points_m())}}}};
+  if (vehicle.goal) data["goal_m"] = json_points(vehicle.goal->area_m.vertices_m);
+  return data;
 }
 
 Json zones_of(const scenario::Scenario& scenario) {

@@ -87,8 +87,9 @@ std::optional<double> rollout_cost_m2(const controller::Controller& controller,
   if (!controller.has_plan() || !controller.path_s_m()) return std::nullopt;
   const std::vector<controller::Controller::AnnouncedPlan> others = controller.announced_plans();
   const road::ReferencePath& path = controller.route().path;
-  const double ahead_m =
-      controller.options().reference_speed_mps * controller.subgraph().automaton().step_s;
+  const double speed_mps = controller.options().reference_speed_mps;
+  const double step_s = controller.subgraph().automaton().step_s;
+  const double ahead_m = speed_mps * step_s;
   controller::Controller ahead = controller;
   ahead.set_max_expansions(settings.max_expansions);
   std::uint64_t expansions_left = settings.most_expansions;
@@ -107,7 +108,9 @@ std::optional<double> rollout_cost_m2(const controller::Controller& controller,
     s_m = path.project_within(plan.pose_at(next).position_m(), s_m - kProjection_m,
                               s_m + 2.0 * ahead_m + kProjection_m)
               .s_m;
-    cost_m2 += (reached_m - path.at(s_m + ahead_m)).squaredNorm() +
+    const double reference_mps = road::least_speed_mps(controller.route().speed_sections, path, s_m,
+                                                       s_m + ahead_m, speed_mps);
+    cost_m2 += (reached_m - path.at(s_m + reference_mps * step_s)).squaredNorm() +
                weighted(plan.maneuver_during(next), settings.criterion_weights);
   }
   return cost_m2;

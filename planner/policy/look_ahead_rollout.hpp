@@ -30,7 +30,8 @@ using BeforeStep = std::function<void(controller::Controller&)>;
 ///     c_k = |p(k+2) - r_k|^2 + sum_c w_c c(e_k)   [m^2]
 ///
 /// with p(k+2) the planned position at t(k+2), r_k the point of the path at the arc length of
-/// p(k+1) plus reference_speed * step, e_k the maneuver between the two, and w_c its weights.
+/// p(k+1) plus speed * step, at the reference speed or that of the slowest section of the route on
+/// this way, e_k the maneuver between the two, and w_c its weights.
 ///
 /// @param controller  after a step; it is not changed
 /// @return sum of c_k over the steps; none for a controller without a plan or a place on its path,

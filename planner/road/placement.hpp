@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "planner/geometry/footprint.hpp"
 #include "planner/road/corridor.hpp"
 #include "planner/road/driving_line.hpp"
 #include "planner/road/goal.hpp"
 #include "planner/road/reference_path.hpp"
+#include "planner/road/speed_sections.hpp"
 
 namespace hlc::road {
 
@@ -20,6 +22,7 @@ struct DrivableRoute {
   DrivingLine driving_line{};  ///< to be followed; arc lengths are always those of the path
   std::uint32_t number{};      ///< in the run's conflict map, if it has one
   std::optional<Goal> goal{};  ///< in which the path ends; none: an open one leads to its end
+  std::vector<SpeedSection> speed_sections{};
 };
 
 /// Placement of a vehicle on a route.

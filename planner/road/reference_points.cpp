@@ -40,14 +40,21 @@ std::string_view name_of(ReferenceRule rule) {
 
 Reference reference_points(const ReferencePath& path, double start_s_m, double current_speed_mps,
                            double reference_speed_mps, std::size_t horizon_steps, double step_s,
-                           ReferenceRule rule) {
+                           ReferenceRule rule, std::span<const SpeedSection> sections) {
   HLC_DEMAND(horizon_steps >= 1 && step_s > 0.0 && reference_speed_mps >= 0.0, horizon_steps,
              step_s, reference_speed_mps);
   Reference reference{.speeds_mps = rule(current_speed_mps, reference_speed_mps, horizon_steps)};
   reference.points_m.reserve(horizon_steps);
   reference.s_m.reserve(horizon_steps);
   double s_m = start_s_m;
-  for (const double speed_mps : reference.speeds_mps) {
+  for (std::size_t j = 0; j < horizon_steps; ++j) {
+    double& speed_mps = reference.speeds_mps[j];
+    const double unlimited_m = reference_speed_mps * step_s;
+    if (!sections.empty() && unlimited_m > 0.0) {
+      const double section_mps =
+          least_speed_mps(sections, path, s_m, s_m + unlimited_m, reference_speed_mps);
+      speed_mps = rule(current_speed_mps, section_mps, horizon_steps)[j];
+    }
     s_m += speed_mps * step_s;
     reference.points_m.push_back(path.at(s_m));
     reference.s_m.push_back(s_m);

@@ -7,6 +7,7 @@
 
 #include "planner/road/driving_line.hpp"
 #include "planner/road/reference_path.hpp"
+#include "planner/road/speed_sections.hpp"
 
 namespace hlc::road {
 
@@ -45,12 +46,15 @@ struct Reference {
   std::vector<double> speeds_mps;
 };
 
-/// Points on the path, marched from arc length `start_s_m` by speed * step_s per step.
+/// Points on the path, marched from arc length `start_s_m` by speed * step_s per step. A step that
+/// would pass sections of the path has the speed that the rule gives it for the slowest of them: so
+/// the reference is slow before it enters one.
 /// @pre horizon_steps >= 1, step_s > 0, reference_speed_mps >= 0
 [[nodiscard]] Reference reference_points(const ReferencePath& path, double start_s_m,
                                          double current_speed_mps, double reference_speed_mps,
                                          std::size_t horizon_steps, double step_s,
-                                         ReferenceRule rule);
+                                         ReferenceRule rule,
+                                         std::span<const SpeedSection> sections = {});
 
 /// The same not beyond `end_s_m`, and on the driving line beside the path.
 [[nodiscard]] Reference reference_on(const DrivingLine& line, const ReferencePath& path,

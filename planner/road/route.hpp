@@ -5,6 +5,7 @@
 #include "planner/road/corridor.hpp"
 #include "planner/road/lanelet_map.hpp"
 #include "planner/road/reference_path.hpp"
+#include "planner/road/speed_sections.hpp"
 
 namespace hlc::road {
 
@@ -26,6 +27,7 @@ struct Route {
   Corridor corridor;
   /// Arc length on `path` at which each lanelet of the route begins, and the end of the last.
   std::vector<double> lanelet_s_m;
+  std::vector<SpeedSection> speed_sections{};  ///< the map knows none
 };
 
 /// Largest distance between the end of a lanelet and the begin of the next that counts as a joint

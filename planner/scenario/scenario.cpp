@@ -8,6 +8,7 @@
 
 #include "planner/common/node.hpp"
 #include "planner/scenario/priority_values.hpp"
+#include "planner/scenario/reference_speeds.hpp"
 #include "planner/scenario/scenario_assembly.hpp"
 #include "planner/scenario/scenario_inputs.hpp"
 #include "planner/scenario/scenario_values.hpp"
@@ -76,6 +77,14 @@ controller::ControllerFactory others_of(const Scenario& scenario,
   };
 }
 
+/// subgraph_at, prepared.
+controller::PreparedSubgraph prepared_at(const Scenario& scenario, double reference_speed_mps,
+                                         const controller::PreparedSubgraph& on) {
+  auto subgraph = subgraph_at(on.subgraph, reference_speed_mps, scenario.horizon_steps);
+  if (subgraph == on.subgraph) return on;
+  return controller::prepare_subgraph(std::move(subgraph), scenario.horizon_steps, scenario.search);
+}
+
 }  // namespace
 
 std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario, VehicleId id) {
@@ -91,6 +100,7 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
         fmt::format("priorities = {}, must be {}", rules.priorities.strategy->name, why));
   }
   std::vector<road::DrivableRoute> routes = scenario.routes;
+  double reference_speed_mps = scenario.reference_speed_mps;
   const auto named = std::ranges::find(scenario.vehicles, id, &ScenarioVehicle::id);
   if (named != scenario.vehicles.end()) {
     routes = {{.name = named->name,
@@ -98,16 +108,21 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                .corridor = named->corridor,
                .driving_line = named->driving_line,
                .number = named->route_number,
-               .goal = named->goal}};
+               .goal = named->goal,
+               .speed_sections = named->speed_sections}};
+    reference_speed_mps = named->reference_speed_mps.value_or(reference_speed_mps);
   }
   controller::ControllerFactory others;
   if (scenario.rounds == controller::Rounds::kTwo) others = others_of(scenario, on);
+  if (named != scenario.vehicles.end() && named->reference_speed_mps) {
+    on = prepared_at(scenario, reference_speed_mps, on);
+  }
   std::vector<coordination::Guest> guests;
   for (const ScenarioGuest& one : scenario.guests) guests.push_back(one.guest);
   auto controller = std::make_unique<controller::Controller>(
       controller::ControllerOptions{.vehicle = id,
                                     .horizon_steps = scenario.horizon_steps,
-                                    .reference_speed_mps = scenario.reference_speed_mps,
+                                    .reference_speed_mps = reference_speed_mps,
                                     .contouring_weight = scenario.contouring_weight,
                                     .reference_rule = scenario.profile.reference_rule,
                                     .strategies = scenario.profile.strategies,

@@ -31,7 +31,9 @@ struct ScenarioVehicle {
   road::Corridor corridor;
   road::DrivingLine driving_line{};  ///< these two as in DrivableRoute
   std::uint32_t route_number{};
-  std::optional<road::Goal> goal{};  ///< in which the path ends
+  std::optional<road::Goal> goal{};             ///< in which the path ends
+  std::optional<double> reference_speed_mps{};  ///< its own; none: the scenario's
+  std::vector<road::SpeedSection> speed_sections{};
 };
 
 /// Something that is no vehicle, and stands for good.

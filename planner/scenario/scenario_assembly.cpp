@@ -12,6 +12,7 @@
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/policy_file.hpp"
 #include "planner/scenario/priority_values.hpp"
+#include "planner/scenario/reference_speeds.hpp"
 #include "planner/scenario/scenario_vehicles.hpp"
 #include "planner/scenario/search_values.hpp"
 #include "planner/scenario/starts.hpp"
@@ -85,8 +86,9 @@ void choose_policy(const ScenarioValues& values, const ScenarioChoices& choices,
   const bool is_own_subgraph = scenario.subgraph->spec().name == values.subgraph;
   for (const auto& [name, settings] : values.policies) {
     if (name != scenario.policy && !is_own_subgraph) continue;
-    check_policy(values.node, name, settings, *scenario.subgraph, scenario.horizon_steps,
-                 scenario.lab);
+    for (const auto& base : subgraphs_of(values, scenario.subgraph)) {
+      check_policy(values.node, name, settings, *base, scenario.horizon_steps, scenario.lab);
+    }
   }
   if (scenario.policy != policy::kNoPolicy) {
     scenario.reconfiguration = scenario.policies.at(scenario.policy);
@@ -191,6 +193,7 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   check_criterion_weights(values.node, values.criterion_weights, *scenario.subgraph);
   check_standstill_is_near(values.node, scenario);
   check_lab(scenario);
+  check_reference_speeds(values, scenario.subgraph);
   choose_policy(values, choices, scenario);
   add_obstacles(values, inputs.map_obstacles, scenario);
   scenario.guests = guests_of(values.guests, scenario.subgraph->automaton().vehicle);

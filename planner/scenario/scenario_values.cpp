@@ -24,49 +24,19 @@ std::filesystem::path beside(const std::filesystem::path& file, const std::strin
   return (file.parent_path() / path).lexically_normal();
 }
 
-/// The route of the name, from another one of its lanelets on.
-RouteValues begun_elsewhere(const std::vector<RouteValues>& routes, const Node& node) {
-  const auto of = std::ranges::find(routes, node.required<std::string>("of"), &RouteValues::name);
-  if (of == routes.end() || !of->is_closed) node.fail("of", "the name of a closed route above");
-  const int from = node.required<int>("from");
-  RouteValues route = *of;
-  for (auto& [benchmark_id, lanelets] : route.lanelets) {
-    const auto begin = std::ranges::find(lanelets, from);
-    if (begin == lanelets.end()) node.fail("from", "a lanelet of " + of->name);
-    std::ranges::rotate(lanelets, begin);
-  }
-  route.begins_elsewhere = true;
-  route.node = of->node;
-  return route;
-}
-
-RouteValues parse_route(const std::vector<RouteValues>& above, const Node& node) {
-  RouteValues route{.node = node};
-  if (node.has("of")) {
-    route = begun_elsewhere(above, node);
-  } else {
-    route.is_closed = node.optional<bool>("closed", true);
-    const Node by_map = node.map("lanelets");
-    for (const std::string& benchmark_id : by_map.keys()) {
-      for (const Node& lanelet : by_map.list(benchmark_id)) {
-        route.lanelets[benchmark_id].push_back(lanelet.as<int>(at_least(1.0)));
-      }
-    }
-  }
-  route.name = node.required<std::string>("name");
-  node.check_no_unknown_keys();
-  return route;
-}
-
 void parse_routes(const Node& scenario, ScenarioValues& values) {
   values.has_random_routes = scenario.is_value("routes");
   if (values.has_random_routes) {
     static_cast<void>(scenario.required<std::string>("routes", one_of({kRandomRoutes})));
     return;
   }
-  for (const Node& node : scenario.list("routes")) {
-    values.routes.push_back(parse_route(values.routes, node));
-  }
+  values.routes = read_routes(scenario);
+}
+
+std::optional<double> read_reference_speed(const Node& vehicle) {
+  constexpr char kKey[] = "reference_speed_mps";
+  if (!vehicle.has(kKey)) return std::nullopt;
+  return vehicle.required<double>(kKey, above(0.0));
 }
 
 std::optional<ConvexPolygon> read_goal(const Node& vehicle) {
@@ -94,6 +64,7 @@ void parse_vehicles(const Node& scenario, ScenarioValues& values) {
              node.optional<double>("start_left_m", 0.0, between(-kMostBeside_m, kMostBeside_m)),
          .start_turned_rad = node.optional<double>("start_turned_rad", 0.0,
                                                    between(-kMostTurned_rad, kMostTurned_rad)),
+         .reference_speed_mps = read_reference_speed(node),
          .goal_m = read_goal(node),
          .node = node});
     node.check_no_unknown_keys();

@@ -15,19 +15,11 @@
 #include "planner/road/lanelet_map.hpp"
 #include "planner/scenario/guest_values.hpp"
 #include "planner/scenario/obstacle_values.hpp"
+#include "planner/scenario/route_values.hpp"
 #include "planner/scenario/strategy_values.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace hlc::scenario {
-
-/// An entry of `routes`.
-struct RouteValues {
-  std::string name;
-  bool is_closed{true};
-  std::map<std::string, std::vector<road::LaneletId>> lanelets;  ///< by the benchmarkID of the map
-  bool begins_elsewhere{};  ///< a route above, from another one of its lanelets on
-  Node node;                ///< its place in the file, for messages
-};
 
 /// An entry of `vehicles`.
 struct VehicleValues {
@@ -38,6 +30,7 @@ struct VehicleValues {
   double start_m{};
   double start_left_m{};
   double start_turned_rad{};
+  std::optional<double> reference_speed_mps{};  ///< none: the scenario's
   std::optional<ConvexPolygon> goal_m{};  ///< none: to the end of an open route, or on forever
   Node node;
 };

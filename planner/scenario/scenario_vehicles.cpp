@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "planner/road/route.hpp"
+#include "planner/scenario/reference_speeds.hpp"
 #include "planner/scenario/right_of_way.hpp"
 #include "planner/scenario/starts.hpp"
 
@@ -30,7 +31,9 @@ road::Route build_route_of(const RouteValues& values, const road::LaneletMap& ma
     one.fail("a lanelet of the map " + map.benchmark_id);
   }
   try {
-    return road::build_route(map, lanelets->second, values.is_closed);
+    road::Route route = road::build_route(map, lanelets->second, values.is_closed);
+    route.speed_sections = speed_sections_of(values, route, map.benchmark_id);
+    return route;
   } catch (const std::runtime_error& error) {
     by_map.fail(map.benchmark_id, fmt::format("a route that can be driven: {}", error.what()));
   }
@@ -57,7 +60,8 @@ ScenarioVehicle vehicle_on(const road::Route& route, double start_m) {
           .start_s_m = start_m,
           .start_lanelet = route.lanelets[lanelet],
           .path = route.path,
-          .corridor = route.corridor};
+          .corridor = route.corridor,
+          .speed_sections = route.speed_sections};
 }
 
 ScenarioVehicle place_vehicle(const VehicleValues& values, const road::Route& route) {
@@ -66,6 +70,7 @@ ScenarioVehicle place_vehicle(const VehicleValues& values, const road::Route& ro
   ScenarioVehicle vehicle = vehicle_on(route, values.start_m);
   vehicle.id = values.id;
   vehicle.name = values.name;
+  vehicle.reference_speed_mps = values.reference_speed_mps;
   const double heading_rad = vehicle.start.heading_rad;
   const Point position = vehicle.start.position_m() +
                          values.start_left_m * Point(-std::sin(heading_rad), std::cos(heading_rad));
@@ -81,7 +86,9 @@ void lead_to_goal(const VehicleValues& values, ScenarioVehicle& vehicle) {
                                          "its start",
                                          vehicle.id.value, vehicle.name));
   }
-  vehicle.path = road::path_until(vehicle.path, std::midpoint(stretch->from_s_m, stretch->to_s_m));
+  const double end_s_m = std::midpoint(stretch->from_s_m, stretch->to_s_m);
+  vehicle.speed_sections = road::sections_until(vehicle.speed_sections, vehicle.path, end_s_m);
+  vehicle.path = road::path_until(vehicle.path, end_s_m);
   vehicle.goal = road::Goal{.area_m = *values.goal_m, .from_s_m = stretch->from_s_m};
 }
 
@@ -177,7 +184,10 @@ void add_vehicles_on_map(const ScenarioValues& values, const road::LaneletMap& m
     const auto& [named, is_new] = routes.emplace(one.name, build_route_of(one, map));
     if (!is_new || one.begins_elsewhere || scenario.random_routes_on) continue;
     const road::Route& route = named->second;
-    scenario.routes.push_back({.name = one.name, .path = route.path, .corridor = route.corridor});
+    scenario.routes.push_back({.name = one.name,
+                               .path = route.path,
+                               .corridor = route.corridor,
+                               .speed_sections = route.speed_sections});
   }
   std::ranges::sort(scenario.routes, {}, &road::DrivableRoute::name);
   scenario.seed = choices.seed.value_or(values.seed);

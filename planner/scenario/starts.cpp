@@ -71,8 +71,11 @@ bool is_taken(const Scenario& scenario, const ConvexPolygon& start_area_m) {
 std::vector<road::DrivableRoute> routes_of(std::span<const ScenarioVehicle> vehicles) {
   std::vector<road::DrivableRoute> routes;
   for (const ScenarioVehicle& one : vehicles) {
-    routes.push_back(
-        {.name = one.name, .path = one.path, .corridor = one.corridor, .goal = one.goal});
+    routes.push_back({.name = one.name,
+                      .path = one.path,
+                      .corridor = one.corridor,
+                      .goal = one.goal,
+                      .speed_sections = one.speed_sections});
   }
   return routes;
 }
@@ -88,6 +91,7 @@ ScenarioVehicle on_random_route(ScenarioVehicle vehicle, const road::LaneletMap&
           .s_m;
   vehicle.path = std::move(route.path);
   vehicle.corridor = std::move(route.corridor);
+  vehicle.speed_sections.clear();  // of another route
   return vehicle;
 }
 

@@ -55,6 +55,21 @@ TEST(FaultCampaign, NothingIsViolatedAmongCarsWithRightOfWay) {
   EXPECT_GT(totals.planned, totals.car_steps / 2) << describe(totals);
 }
 
+TEST(FaultCampaign, NothingIsViolatedAmongObstacles) {
+  const scenario::Scenario field = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/obstacle_field.yaml", .cars = 3});
+  FaultTotals totals;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    FaultCase the_case = campaign().draw(seed);
+    the_case.scenario = field;
+    the_case.run.lab.prepared = scenario::prepare_subgraph_of(field);
+    const FaultRunResult result = FaultCampaign::run(the_case);
+    EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
+    totals.add(result);
+  }
+  EXPECT_GT(totals.planned, totals.car_steps / 2) << describe(totals);
+}
+
 TEST(FaultCampaign, NothingIsViolatedInTwoRounds) {
   const FaultCampaign in_two_rounds(
       {.scenario_folder = test::source_folder() + "/launch_scripts/scenarios",

@@ -137,6 +137,26 @@ TEST(Plans, ThatMeetOnlyInTheEndAreNotFree) {
   }
 }
 
+TEST(Plans, ThatMeetAnObstacleAreReportedOnceForEachVehicle) {
+  for (const bool in_the_end : {true, false}) {
+    PlansCheck check(8, nullptr, {square_at(1.0)});
+    Violations violations;
+    const auto report_plan = [&](VehicleId vehicle, std::uint64_t step, double x_m) {
+      coordination::Prediction one = standing_at(vehicle, step, in_the_end ? x_m : 9.0);
+      one.areas.areas_m = {square_at(in_the_end ? -9.0 : x_m)};
+      check.predicted(one);
+      check.reported(report_of(vehicle, step, coordination::StepStatus::kPlanned), nullptr, 0,
+                     violations);
+    };
+    report_plan(kOne, 10, 0.8 + 5e-6);
+    EXPECT_TRUE(violations.empty()) << "within the tolerance";
+    report_plan(kOne, 11, 0.9);
+    report_plan(kOne, 12, 0.9);
+    ASSERT_EQ(violations.size(), 1U);
+    EXPECT_EQ(violations.front().text, "the plan of vehicle 1 from step 12 on meets an obstacle");
+  }
+}
+
 TEST(Plans, OfWhoIsOffItsPlanOrSilentForLongAreLeftOut) {
   for (const bool is_off : {true, false}) {
     PlansCheck check(8);

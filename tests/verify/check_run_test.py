@@ -3,13 +3,14 @@
 
 Drives every shipped scenario in one process (evaluate --keep_runs) and a few runs with faults (fault_simulator --out).
 Of the record of paper_three_cars every seed manipulates one row: an area is moved by 3 mm into a neighbour, a
-standstill removed, two steps of a vehicle swapped. HLC_TEST_LONG tries 1000 seeds instead of 60 and drives whole
-scenarios.
+standstill removed, two steps of a vehicle swapped; of one of obstacle_field an obstacle is put in a car's way.
+HLC_TEST_LONG tries 1000 seeds instead of 60 and drives whole scenarios.
 """
 import argparse
 import collections
 import csv
 import importlib.util
+import json
 import math
 import os
 import pathlib
@@ -37,6 +38,7 @@ MOVE_M = 0.003
 
 def load_checker():
     sys.dont_write_bytecode = True
+    sys.path.insert(0, str(SCRIPT.parent))
     spec = importlib.util.spec_from_file_location("check_run", SCRIPT)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -251,6 +253,30 @@ class Test:
         write(run / file, rows)
         self.program(1, run, prints="vehicle 6 (missing) is")
 
+    def obstacles(self):
+        """A run among obstacles is accepted, and not if one stands where a car is, or drives later."""
+        self.drive("evaluate", "--scenario", "obstacle_field", "--steps", STEPS, "--keep_runs", "--out", "obstacles")
+        run = self.work / "obstacles" / "runs" / "0"
+        self.program(0, run, prints="runs without summary.json, obstacles unknown")
+        subprocess.run([self.binaries / "summarize", "--run", run], check=True, stdout=subprocess.DEVNULL)
+        self.program(0, run, prints="accepted")
+        summary = json.loads((run / "summary.json").read_text(encoding="utf-8"))
+        certificate = next(one for one in read(run / "certificates.csv") if one["areas"].count(";") > 4)
+        numbers = [float(one) for one in certificate["areas"].split(";")[-1].split(" ")]
+        summary["obstacles"][0]["corners_m"] = list(zip(numbers[::2], numbers[1::2]))
+        self.put_summary(run, summary)
+        self.program(1, run, prints=f"vehicle {certificate['id']}, step {certificate['step']}: obstacle: the area")
+        self.program(1, run, prints=f"csv: vehicle {certificate['id']}, step")
+        summary["obstacles"][0]["from_step"] = int(STEPS)
+        self.put_summary(run, summary)
+        self.program(0, run, prints="accepted")  # it is put there when all have passed
+        summary["obstacles"][0]["corners_m"].reverse()
+        self.put_summary(run, summary)
+        self.program(2, run, prints="counter-clockwise")
+
+    def put_summary(self, run, summary):
+        (run / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+
     def files(self, run):
         copy = self.work / "copy"
         shutil.copytree(run, copy)
@@ -281,6 +307,7 @@ def main():
         test.only_what_is_stated(test.work / "faults")
         test.driven_elsewhere(run)
         test.files(run)
+        test.obstacles()
         test.manipulate(run, 1000 if is_long else 60, MANIPULATIONS)
         test.manipulate(run, 100 if is_long else 12, FURTHER)
     print(f"{len(test.failures)} failed")

@@ -1,9 +1,15 @@
-"""Does a vehicle touch another one? By CommonRoad's collision checker, planned and driven apart."""
+"""Does a vehicle touch another one, or an obstacle? By CommonRoad's collision checker.
 
-from itertools import combinations
+Planned and driven motions apart.
+"""
+
+from itertools import combinations, product
 
 from commonroad.scenario.obstacle import DynamicObstacle
 from commonroad_dc import pycrcc
+from commonroad_dc.collision.collision_detection.pycrcc_collision_dispatch import (
+    create_collision_object,
+)
 from commonroad_dc.collision.trajectory_queries.trajectory_queries import (
     trajectory_preprocess_obb_sum,
 )
@@ -35,9 +41,19 @@ def first_touch(
     return 0
 
 
+def first_touch_of_obstacle(
+    boxes: pycrcc.TimeVariantCollisionObject, shape: pycrcc.CollisionObject
+) -> int | None:
+    for i in range(boxes.time_start_idx(), boxes.time_end_idx() + 1):
+        if boxes.obstacle_at_time(i).collide(shape):
+            return i
+    return None
+
+
 def check_collisions(run: Run) -> tuple[list[Finding], str]:
     findings = []
     pairs = 0
+    standing = {o.obstacle_id: create_collision_object(o) for o in run.scenario.static_obstacles}
     for kind, obstacles in (("planned", run.planned), ("driven", run.driven)):
         boxes = {vehicle: swept(obstacle) for vehicle, obstacle in obstacles.items()}
         for a, b in combinations(sorted(boxes), 2):
@@ -46,7 +62,13 @@ def check_collisions(run: Run) -> tuple[list[Finding], str]:
             if i is not None:
                 text = f"vehicles {a} and {b}, {kind}, touch at {i * run.scenario.dt:.2f} s"
                 findings.append(Finding("collision", text))
-    return findings, f"none in {pairs} pairs (planned and driven)" if pairs else "one vehicle alone"
+        for vehicle, obstacle in product(sorted(boxes), sorted(standing)):
+            i = first_touch_of_obstacle(boxes[vehicle], standing[obstacle])
+            if i is not None:
+                text = f"vehicle {vehicle}, {kind}, touches obstacle {obstacle}"
+                findings.append(Finding("collision", f"{text} at {i * run.scenario.dt:.2f} s"))
+    seen = f"none in {pairs} pairs (planned and driven)" if pairs else "one vehicle alone"
+    return findings, f"{seen}, {len(standing)} obstacles" if standing else seen
 
 
 def check_size(run: Run) -> list[Finding]:

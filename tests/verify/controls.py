@@ -98,6 +98,23 @@ def into_another(root: Element, ids: int) -> None:
     shift(second, dx, dy + 0.05)
 
 
+def put_obstacle(root: Element) -> None:
+    """5 cm square, where the first vehicle is in mid-run."""
+    plan = motion(root, PLANNED_IDS, 1)
+    x_m, y_m = get(plan[len(plan) // 2], X), get(plan[len(plan) // 2], Y)
+    corners = "".join(
+        f"<point><x>{x_m + dx:.9f}</x><y>{y_m + dy:.9f}</y></point>"
+        for dx, dy in ((-0.025, -0.025), (0.025, -0.025), (0.025, 0.025), (-0.025, 0.025))
+    )
+    obstacle = etree.fromstring(
+        f"<staticObstacle id='9000001'><type>unknown</type><shape><polygon>{corners}</polygon>"
+        "</shape><initialState><position><point><x>0.000000000</x><y>0.000000000</y></point>"
+        "</position><orientation><exact>0.000000000</exact></orientation><time><exact>0</exact>"
+        "</time></initialState></staticObstacle>"
+    )
+    root.find("dynamicObstacle").addprevious(obstacle)
+
+
 def without(root: Element, ids: int) -> None:
     root.remove(root.find(f"dynamicObstacle[@id='{ids + 2}']"))
 
@@ -188,6 +205,12 @@ def controls(rear_axle_to_cg_m: float) -> list[Control]:
             "collision",
             ("driven",),
             lambda r: into_another(r, DRIVEN_IDS),
+        ),
+        Control(
+            "an obstacle in the way",
+            "collision",
+            ("vehicle 1, planned, touches obstacle", "vehicle 1, driven, touches obstacle"),
+            put_obstacle,
         ),
         Control(
             "a plan moved 0.2 m aside",

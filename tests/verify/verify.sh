@@ -91,6 +91,8 @@ watch_live() {
 echo "Driving"
 drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle --subgraphs A,B,C,D \
   --profile default,2022 --keep_runs --scenario_folder "$root/launch_scripts/scenarios" --out "$out/campaign"
+drive "evaluate" timeout 120 "$bin/evaluate" --scenario obstacle_field --keep_runs \
+  --scenario_folder "$root/launch_scripts/scenarios" --out "$out/obstacles"
 drive "run_lab.sh" timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --out "$out/processes"
 timeout 60 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/scenario_schema.py" || exit 1
 timeout 60 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/messages.py" "$out/processes" || exit 1
@@ -104,5 +106,6 @@ if command -v npm >/dev/null; then
   fi
 fi
 for ((i = 0; i < 16; i++)); do runs+=("$out/campaign/runs/$i"); done
+runs+=("$out/obstacles/runs/0")
 # Run 1 is paper_three_cars with subgraph B and the default profile; run 4, A with that of 2022, re-anchors plans.
 "${verify[@]}" --controls "$out/campaign/runs/1" --controls_reanchored "$out/campaign/runs/4" "${runs[@]}" "$out/processes"

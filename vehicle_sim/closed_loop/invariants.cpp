@@ -133,6 +133,15 @@ bool PlansCheck::meet(const coordination::OccupiedAreas& areas, VehicleId other,
          !coordination::are_free(areas, standing_->area(other), from, horizon_steps_);
 }
 
+bool PlansCheck::meets_obstacle(const coordination::OccupiedAreas& areas) const {
+  const auto meets = [this](const ConvexPolygon& area_m) {
+    return std::ranges::any_of(obstacles_m_, [&](const ConvexPolygon& obstacle_m) {
+      return !separating_line(area_m, obstacle_m, coordination::kSeparationTolerance_m);
+    });
+  };
+  return std::ranges::any_of(areas.areas_m, meets) || meets(areas.final_area_m);
+}
+
 /// A vehicle that stands elsewhere than in its plan: it has been anchored there, and may agree to
 /// a new plan in the same step.
 void PlansCheck::published(const coordination::Traffic& traffic) {
@@ -165,6 +174,13 @@ void PlansCheck::reported(const coordination::Report& report, const coordination
                              .last_report = report.step})
           .areas;
   predicted_.erase(predicted);
+  if (meets_obstacle(areas) && met_obstacle_.insert(vehicle).second) {
+    violations.push_back({.at = at,
+                          .check = "plans",
+                          .text = "the plan of vehicle " + std::to_string(vehicle.value) +
+                                  " from step " + std::to_string(areas.first.value) +
+                                  " on meets an obstacle"});
+  }
   for (const auto& [other, plan] : in_force_) {
     if (other == vehicle || !is_relied_on(plan, report.step) ||
         !meet(areas, other, plan, report.step) ||

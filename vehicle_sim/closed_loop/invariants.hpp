@@ -91,6 +91,9 @@ class FootprintsCheck {
 /// controller is gone, until the next controller is on standby: its vehicle has then been seen
 /// standing for a horizon.
 ///
+/// No area of a new plan meets an obstacle that is no vehicle, the final one included, by more than
+/// that tolerance; of each vehicle the first is reported.
+///
 /// A vehicle whose plan has run out stands; it is enough to be free of where it truly does.
 ///
 /// A vehicle without a report for horizon + 1 + kSilentSteps steps has finished every plan that it
@@ -104,8 +107,9 @@ class FootprintsCheck {
 class PlansCheck {
  public:
   /// @param standing  of the vehicles whose plan has run out; nullptr: only their plans count
-  explicit PlansCheck(std::size_t horizon_steps, const StandingAreas* standing = nullptr)
-      : horizon_steps_(horizon_steps), standing_(standing) {}
+  explicit PlansCheck(std::size_t horizon_steps, const StandingAreas* standing = nullptr,
+                      std::vector<ConvexPolygon> obstacles_m = {})
+      : horizon_steps_(horizon_steps), standing_(standing), obstacles_m_(std::move(obstacles_m)) {}
 
   void predicted(const coordination::Prediction& prediction) {
     predicted_[prediction.vehicle] = prediction;
@@ -130,9 +134,12 @@ class PlansCheck {
   [[nodiscard]] bool meet(const coordination::OccupiedAreas& areas, VehicleId other,
                           const InForce& plan, StepIndex now) const;
   [[nodiscard]] bool is_relied_on(const InForce& plan, StepIndex now) const;
+  [[nodiscard]] bool meets_obstacle(const coordination::OccupiedAreas& areas) const;
 
   std::size_t horizon_steps_;
   const StandingAreas* standing_;
+  std::vector<ConvexPolygon> obstacles_m_;
+  std::set<VehicleId> met_obstacle_;
   std::map<VehicleId, coordination::Prediction> predicted_;
   std::map<VehicleId, InForce> in_force_;
   std::set<Pair> met_;

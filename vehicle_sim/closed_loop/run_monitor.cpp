@@ -60,7 +60,7 @@ RunMonitor::RunMonitor(const scenario::Scenario& scenario, Nanoseconds calm_from
                   obstacles_of(scenario)),
       standing_(automaton_of(scenario).vehicle.footprint,
                 automaton_of(scenario).vehicle.safety_margin_m),
-      plans_(scenario.horizon_steps, &standing_),
+      plans_(scenario.horizon_steps, &standing_, obstacles_of(scenario)),
       driven_(scenario.horizon_steps, period_, &standing_),
       announced_(automaton_of(scenario).vehicle.footprint, period_),
       planning_(calm_from),

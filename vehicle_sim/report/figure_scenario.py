@@ -39,6 +39,8 @@ def turned(place: dict) -> dict:
         car["path"]["points_m"] = turn(car["path"]["points_m"])
         start = car["start"]
         start["x_m"], start["y_m"], start["yaw_rad"] = start["y_m"], -start["x_m"], start["yaw_rad"] - 0.5 * math.pi
+        if "goal_m" in car:
+            car["goal_m"] = turn(car["goal_m"])
     for zones in place["zones"].values():
         for zone in zones:
             x, to_x = zone["min_x_m"], zone["max_x_m"]
@@ -73,9 +75,10 @@ def draw_route(axes: Axes, points: np.ndarray, look: style.Stroke, inch_per_m: f
 
 
 def draw_cars(axes: Axes, place: dict, looks: list[style.Stroke], inch_per_m: float) -> None:
-    """Cars with their ids beside them, or on them where they are large enough."""
+    """Cars and their goals, with the cars' ids beside them, or on them where they are large enough."""
     is_large = place["footprint"]["width_m"] * inch_per_m > 0.12
     for car, look in zip(place["vehicles"], looks, strict=True):
+        map_axes.draw_goal(axes, car, look.colour)
         map_axes.draw_car(axes, place, car, look.colour)
         start = car["start"]
         side = 0.0 if is_large else 0.5 * place["footprint"]["width_m"] + 0.07 / inch_per_m
@@ -160,7 +163,7 @@ def pose_text(car: dict) -> str:
 
 
 def entries_of(place: dict, looks: list[style.Stroke], has_thumbnails: bool, poses_of: dict | None) -> list[object]:
-    """Legend: a line per car, then lanes and zones. poses_of: the place whose poses are named."""
+    """Legend: a line per car, then lanes, zones, obstacles and goals. poses_of: the place whose poses are named."""
     entries: list[object] = []
     for index, (car, look) in enumerate(zip(place["vehicles"], looks, strict=True)):
         pose = pose_text(poses_of["vehicles"][index]) if poses_of else ""
@@ -174,6 +177,9 @@ def entries_of(place: dict, looks: list[style.Stroke], has_thumbnails: bool, pos
         entries.append(Patch(facecolor="none", edgecolor=style.PURPLE, hatch="////", label="speed zone of a policy"))
     if place.get("obstacles"):
         entries.append(Patch(facecolor=style.MARK, edgecolor="#000000", linewidth=0.5, alpha=0.75, label="obstacle"))
+    if any("goal_m" in car for car in place["vehicles"]):
+        entries.append(Patch(facecolor="none", edgecolor=style.MARK, linestyle="--", linewidth=0.9,
+                             label="goal of a car, in its colour"))
     return entries
 
 

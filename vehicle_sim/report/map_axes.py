@@ -1,4 +1,4 @@
-"""Axes with a map: lanes, routes, speed zones, cars."""
+"""Axes with a map: lanes, routes, speed zones, obstacles, goals, cars."""
 
 from collections.abc import Sequence
 
@@ -27,12 +27,13 @@ def path_points(vehicle: dict) -> np.ndarray:
 
 
 def extent_of(place: dict) -> tuple[float, float, float, float]:
-    """x from, x to, y from, y to of lanes, paths, obstacles and cars' middles, with a margin for whole cars around them."""
+    """x from, x to, y from, y to of lanes, paths, goals, obstacles and cars' middles, with a margin for whole cars."""
     margin = 0.75 * place["footprint"]["length_m"]
     pieces = [np.asarray(lane[side]) for lane in place["lanelets"] for side in ("left_m", "right_m")]
     pieces += [path_points(car) for car in place["vehicles"]]
     pieces += [np.array([[car["start"]["x_m"], car["start"]["y_m"]]]) for car in place["vehicles"]]
     pieces += [np.asarray(one["corners_m"]) for one in place.get("obstacles", [])]
+    pieces += [np.asarray(car["goal_m"]) for car in place["vehicles"] if "goal_m" in car]
     points = np.vstack(pieces)
     low, high = points.min(axis=0) - margin, points.max(axis=0) + margin
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
@@ -70,6 +71,15 @@ def draw_obstacles(axes: Axes, place: dict) -> bool:
         axes.text(*corners.mean(axis=0), one["name"], fontsize=5, ha="center", va="center", zorder=3.6, clip_on=True,
                   path_effects=HALO)
     return bool(obstacles)
+
+
+def draw_goal(axes: Axes, car: dict, colour: str) -> None:
+    """The region that a car drives to, if it has one."""
+    if "goal_m" not in car:
+        return
+    for fill, alpha in ((colour, 0.2), ("none", 1.0)):
+        axes.add_patch(Polygon(np.asarray(car["goal_m"]), facecolor=fill, edgecolor=colour, linestyle="--",
+                               linewidth=0.9, alpha=alpha, zorder=1.5))
 
 
 def draw_car(axes: Axes, place: dict, car: dict, colour: str) -> None:

@@ -182,6 +182,13 @@ TEST_F(RunSummaryTest, TheTableNamesTwoRounds) {
   EXPECT_NE(summary_table(summary()).find("subgraph B, two rounds, profile"), std::string::npos);
 }
 
+TEST_F(RunSummaryTest, TheTableNamesTheMapOrThatThereIsNone) {
+  description_.map = "lab_like.xml";
+  EXPECT_NE(summary_table(summary()).find(", map lab_like.xml, "), std::string::npos);
+  description_.map = "";
+  EXPECT_NE(summary_table(summary()).find(", no map, "), std::string::npos);
+}
+
 TEST_F(RunSummaryTest, StepsWhosePlanOrCommandIsNotSentAreCountedAndTold) {
   EXPECT_EQ(summary().vehicles.at(0).undrivable_steps, 0U);
   EXPECT_EQ(summary_table(summary()).find("commands not sent"), std::string::npos);

@@ -29,6 +29,14 @@ TEST(ShowScenario, DrawsTheScenarioWhereAskedTo) {
   EXPECT_EQ(program.kind(), "sheet");
 }
 
+TEST(ShowScenario, NamesReferenceSpeedsOfVehiclesAndSections) {
+  const Outcome done = run_program("show_scenario --scenario " + test::source_folder() +
+                                   "/launch_scripts/scenarios/speeds.yaml");
+  EXPECT_EQ(done.exit_code, 0) << done.output;
+  EXPECT_THAT(done.output, HasSubstr("speed      red, 0.6 m/s\n"));
+  EXPECT_THAT(done.output, testing::ContainsRegex("section    blue, [0-9.]+ ... [0-9.]+ m, 0.4"));
+}
+
 TEST(ShowScenario, DoesNotDrawOverAFileThatTheScenarioNames) {
   const TemporaryFolder folder;
   const std::string shipped = test::source_folder() + "/launch_scripts";

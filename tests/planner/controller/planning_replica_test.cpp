@@ -123,6 +123,23 @@ TEST_F(Replica, OnAnotherSubgraphCannotPlan) {
   EXPECT_FALSE(replica->resume(from_two_, *one_));
 }
 
+TEST_F(Replica, WithOtherSpeedSectionsCannotPlan) {
+  const auto with_section = [](double speed_mps) {
+    return std::make_unique<Controller>(
+        ControllerOptions{.vehicle = {2}}, subgraph(),
+        std::vector<road::DrivableRoute>{
+            {.name = {},
+             .path = road::ReferencePath({Point(0.0, 0.3), Point(10.0, 0.3)}, false),
+             .corridor = {},
+             .speed_sections = {{1.0, 2.0, speed_mps}}}});
+  };
+  const auto slow = with_section(0.4);
+  EXPECT_FALSE(slow->resume(from_two_, *one_));
+  EXPECT_NE(slow->planning_basis(), with_section(0.5)->planning_basis());
+  from_two_.planning->basis = slow->planning_basis();
+  EXPECT_TRUE(slow->resume(from_two_, *one_));
+}
+
 TEST_F(Replica, RejectsNonsense) {
   const auto replica = sharing(2, 0.3);
   ASSERT_TRUE(replica->resume(from_two_, *one_));

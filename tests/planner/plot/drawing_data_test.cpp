@@ -56,5 +56,15 @@ TEST(ScenarioData, HasTheObstacles) {
   EXPECT_GE(data["obstacles"][0]["corners_m"].size(), 3U);
 }
 
+TEST(ScenarioData, HasTheGoalsOfTheCarsThatHaveOne) {
+  const ConvexPolygon area_m{{{1.0, 1.0}, {2.0, 1.0}, {1.5, 2.0}}};
+  scenario::Scenario circle = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/circle.yaml"});
+  circle.vehicles[1].goal = road::Goal{.area_m = area_m};
+  const auto data = scenario_data(circle);
+  EXPECT_FALSE(data["vehicles"][0].contains("goal_m"));
+  EXPECT_EQ(data["vehicles"][1]["goal_m"].dump(), "[[1.0,1.0],[2.0,1.0],[1.5,2.0]]");
+}
+
 }  // namespace
 }  // namespace hlc::plot

@@ -76,6 +76,17 @@ TEST(LookAheadRollout, WhoStandsPaysForTheWayNotDriven) {
   EXPECT_LT(cost_m2(*car, of_steps(4)), 4.0 * kWay_m * kWay_m);
 }
 
+TEST(LookAheadRollout, WhoStandsOnASlowSectionPaysForTheWayThatItWouldDriveThere) {
+  DrivenController stands;
+  stands->set_minimal_risk_stop(true);
+  static_cast<void>(stands.step());
+  stands->change_route({.name = {},
+                        .path = road::ReferencePath({{0.0, 0.0}, {40.0, 0.0}}, false),
+                        .corridor = {},
+                        .speed_sections = {{0.0, 40.0, 0.4}}});
+  EXPECT_NEAR(cost_m2(*stands, of_steps(4)), kWay_m * kWay_m, 1e-12) << "half of each of 4 ways";
+}
+
 TEST(LookAheadRollout, EveryManeuverCostsItsCriteria) {
   DrivenController car;
   static_cast<void>(car.step());

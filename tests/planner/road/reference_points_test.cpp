@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace hlc::road {
 namespace {
 
@@ -41,6 +43,24 @@ TEST(ReferencePoints, WaitAtTheEndOfAnOpenPath) {
   const Reference reference = reference_points(kStraight, 9.9, 1.0, 1.0, 3, 0.2, mean_speed_first);
   EXPECT_EQ(reference.points_m[0], Point(10.0, 0.0));
   EXPECT_EQ(reference.points_m[2], Point(10.0, 0.0));
+}
+
+TEST(ReferencePoints, AreSlowInTheStepThatEntersASlowSection) {
+  const std::vector<SpeedSection> sections{{0.4, 0.55, 0.3}};
+  const Reference reference =
+      reference_points(kStraight, 0.0, 0.8, 0.8, 6, 0.2, half_speed_last, sections);
+  // Whole steps of 0.16 m end at 0.16 and 0.32 m; the next would enter the section.
+  const std::vector<double> expected_mps{0.8, 0.8, 0.3, 0.3, 0.3, 0.15};
+  EXPECT_EQ(reference.speeds_mps, expected_mps);
+  EXPECT_NEAR(reference.points_m[5].x(), 0.32 + 3 * 0.06 + 0.03, 1e-12);
+}
+
+TEST(ReferencePoints, AreFastAgainBehindTheSection) {
+  const std::vector<SpeedSection> sections{{0.0, 0.1, 0.3}};
+  const Reference reference =
+      reference_points(kStraight, 0.0, 0.8, 0.8, 4, 0.2, mean_speed_first, sections);
+  const std::vector<double> expected_mps{0.55, 0.8, 0.8, 0.8};
+  EXPECT_EQ(reference.speeds_mps, expected_mps);
 }
 
 }  // namespace

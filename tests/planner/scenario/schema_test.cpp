@@ -78,6 +78,9 @@ const std::vector<Place>& places() {
       {"route",
        {kBegin + "routes: [{name: r, lanelets: {M: [1]}, zz: 1}]}",
         kBegin + "routes: [{name: r, lanelets: {M: [1]}}, {name: t, of: r, from: 1, zz: 1}]}"}},
+      {"section",
+       {kBegin + "routes: [{name: r, lanelets: {M: [1]}, sections: {M: [{from: 1, to: 1, "
+                 "reference_speed_mps: 1, zz: 1}]}}]}"}},
       {"draw",
        {kBegin + kRoutes + "draw: {cars: 1, routes: [r], zz: 1}}",
         kBegin + "routes: random, draw: {cars: 1, zz: 1}}"}},

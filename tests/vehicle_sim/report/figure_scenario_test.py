@@ -6,7 +6,7 @@ import unittest
 from made_up_series import faults_of, legend_texts, ring, ring_place, road_place, texts_of
 from matplotlib.patches import Polygon
 
-from report import figure_scenario, style
+from report import figure_scenario, map_axes, style
 
 
 class Scenario(unittest.TestCase):
@@ -71,6 +71,26 @@ class Scenario(unittest.TestCase):
         self.assertEqual([set(line.get_ydata()) for line in routes], [{-0.15}])
         axes.figure.draw_without_rendering()
         self.assertEqual(axes.yaxis.get_major_formatter()(-0.15, 0), "0.15")
+
+    def test_goals_are_there_in_the_colour_of_their_cars_also_on_a_turned_road(self) -> None:
+        for is_upright in (False, True):
+            place = road_place(is_upright=is_upright)
+            car = place["vehicles"][1]
+            x, y = car["start"]["x_m"], car["start"]["y_m"]
+            car["goal_m"] = [[x + 3.0, y + 3.0], [x + 4.0, y + 3.0], [x + 3.5, y + 4.5]]
+            drawing = figure_scenario.draw(place)
+            axes = drawing.figure.axes[0]
+            goals = [patch for patch in axes.patches if isinstance(patch, Polygon) and patch.get_zorder() == 1.5]
+            self.assertEqual(len(goals), 2)  # filled, and its outline
+            corners = goals[0].get_xy()[:3].tolist()
+            expected = [[b, -a] for a, b in car["goal_m"]] if is_upright else car["goal_m"]
+            self.assertEqual(corners, expected)
+            cars = [patch for patch in axes.patches if isinstance(patch, Polygon) and patch.get_zorder() == 4]
+            self.assertEqual(goals[1].get_edgecolor(), cars[2].get_facecolor())  # two patches of each car
+            self.assertIn("goal of a car, in its colour", legend_texts(drawing.figure))
+            low, high = map_axes.extent_of(place)[2:]
+            self.assertTrue(low < y + 3.0 and y + 4.5 < high)
+            self.assertEqual(faults_of(drawing), [])
 
     def test_ids_of_lanelets_that_lie_on_each_other_stand_apart(self) -> None:
         place = ring_place(1)
