@@ -26,7 +26,9 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/apps/output_files.hpp"
+#include "planner/apps/progress_line.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/geometry/median.hpp"
@@ -297,7 +299,12 @@ int run(const Flags& flags) {
   ot::Benchmark benchmark(setup, "receding horizon");
   const std::vector<ob::PlannerPtr> planners = make_planners(si, file, reachable);
   for (const ob::PlannerPtr& planner : planners) benchmark.addPlanner(planner);
-  benchmark.setPostRunEvent([](const ob::PlannerPtr& planner, ot::Benchmark::RunProperties& run) {
+  const hlc::apps::Interruption interruption(
+      "ompl_example", "no log is written yet: the same command begins from the start");
+  const hlc::apps::ProgressLine progress("run", planners.size() * flags.runs);
+  std::size_t done = 0;
+  benchmark.setPostRunEvent([&](const ob::PlannerPtr& planner, ot::Benchmark::RunProperties& run) {
+    progress.show(++done);
     const ob::ProblemDefinitionPtr& definition = planner->getProblemDefinition();
     if (!definition->hasExactSolution()) return;
     const auto& path = dynamic_cast<const oc::PathControl&>(*definition->getSolutionPath());

@@ -20,6 +20,7 @@
 #include "hlc_bridge/record/explanation_file.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/plot/search_page.hpp"
 #include "planner/scenario/problem_dump.hpp"
@@ -224,6 +225,8 @@ int explain(const Choices& choices) {
     std::cerr << "explain: " << choices.run.string() << ": " << line << '\n';
   }
   if (!choices.all) return explain_step(std::move(run), choices);
+  const hlc::apps::Interruption interruption(
+      "explain", "nothing is written yet: the same command begins from the start");
   const std::size_t count = hlc::apps::explain_all(std::move(run));
   const char* const why_none =
       count > 0 ? "" : " (no vehicle waited, kept its plan, missed others or braked to a stand)";

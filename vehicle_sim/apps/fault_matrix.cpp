@@ -82,7 +82,8 @@ class Matrix {
     drive_undisturbed();
     const std::size_t count = results_.size() * choices_.runs;
     const hlc::apps::Interruption interruption(
-        "fault_matrix", "--seed goes on with later seeds, --runs shortens it");
+        "fault_matrix",
+        "no table is written yet: the same command begins from the start, --cells selects some");
     const hlc::apps::ProgressLine progress("run", count);
     hlc::apps::run_parallel(
         count, choices_.jobs,

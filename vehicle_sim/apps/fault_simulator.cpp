@@ -151,7 +151,7 @@ int campaign(const Choices& choices, const std::string& flags) {
   const Clock::time_point begin = Clock::now();
   {
     const hlc::apps::Interruption interruption(
-        "fault_simulator", "--seed goes on with later seeds, --runs shortens it");
+        "fault_simulator", "seeds that fail are printed above; --seed goes on from a later one");
     const hlc::apps::ProgressLine progress("run", choices.runs);
     hlc::apps::run_parallel(
         choices.runs, choices.jobs,

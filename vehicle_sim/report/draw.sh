@@ -13,7 +13,7 @@ Draws what a program of the planner wrote (build_automaton, pareto_front, plan_p
 Examples:
   draw.sh scenario scenario.json scenario.svg
   draw.sh pareto front.json front.pdf
-Exit codes: 0 drawn, 2 invalid input, 3 Python's packages are missing, or OUT cannot be written
+Exit codes: 0 drawn, 2 invalid input or OUT cannot be written, 3 Python's packages are missing
 TEXT
 }
 

@@ -12,7 +12,7 @@ Python's packages are installed once, into build/report_environment.
 Examples:
   report.sh runs/table_2
   report.sh runs/priorities
-Exit codes: 0 done, 2 invalid input, 3 not writable, or Python's packages cannot be installed
+Exit codes: 0 done, 2 invalid input or not writable, 3 Python's packages cannot be installed, 130 interrupted
 TEXT
 }
 
