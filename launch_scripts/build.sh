@@ -12,6 +12,9 @@ usage: build.sh [--preset release|debug|asan|tsan|coverage]
   --unit_tests    only the single-process tests
   --thread_tests  the subset of these from folders with threads
   --tests_of FOLDER  only the tests in tests/FOLDER and their dependencies; with the preset tsan only those with threads
+Examples:
+  build.sh --programs
+  build.sh --preset asan --tests_of planner/search
 Exit codes: 0 success, 1 the build failed, 2 invalid input
 TEXT
 }

@@ -269,10 +269,17 @@ class Check:
             self.reject("driven", step, vehicle, what, f"<= {mm(DRIVEN_M)}", f"vehicle_{vehicle}.csv")
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {message} (see --help)\n")
+
+
 def main():
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="check_run.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False, epilog="Exit codes: 0 accepted, 1 rejected, 2 invalid flags or files.")
+        allow_abbrev=False,
+        epilog="Examples:\n  check_run.py runs/my_run\n  check_run.py runs/my_run runs/other_run\n"
+               "Exit codes: 0 accepted, 1 rejected, 2 invalid flags or files.")
     parser.add_argument("runs", metavar="RUN", nargs="+", type=pathlib.Path, help="run folder")
     parser.add_argument("--version", action="store_true", help="print the version, and exit")
     if "--version" in sys.argv:

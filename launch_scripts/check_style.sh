@@ -12,6 +12,9 @@ with .clang-tidy; findings in older lines do not fail.
                   main itself, or without both, the first parent of HEAD)
   --all           clang-tidy checks all lines of all files (more than an hour)
   --fix_format    formats the files instead
+Examples:
+  check_style.sh
+  check_style.sh --since HEAD~3 --fix_format
 Exit codes: 0 clean, 1 a finding or setup failed, 2 invalid input
 TEXT
 }

@@ -14,6 +14,9 @@ a certificate of the authority, and the topics that it may publish and read. All
   --days N               the certificates are valid for so long, 1 ... 3650 (default 30)
 A machine needs of DIR: authority.pem, governance.p7s, and the folders of its own processes. authority.key makes further
 identities: keep it where no car's programs can read it.
+Examples:
+  make_security.sh --vehicle_ids 1,2,3 --out security
+  make_security.sh --vehicle_ids 7 --out security_of_a_day --days 1
 Exit codes: 0 success, 1 openssl failed, 2 invalid input
 TEXT
 }

@@ -7,6 +7,9 @@ usage() {
 usage: python_environment.sh DIR REQUIREMENTS
 Installs the packages of the file REQUIREMENTS into the virtual environment DIR; does nothing if they are installed. The
 list has every package with its version, dependencies too; the first one is small and shows whether PyPI is reachable.
+Examples:
+  python_environment.sh build/report_environment vehicle_sim/report/requirements.txt
+  python_environment.sh build/release/verify_environment tests/verify/requirements.txt
 Exit codes: 0 success, 2 invalid input, 3 not possible here: no python3-venv, or no PyPI, 4 installation failed
 TEXT
 }

@@ -8,7 +8,7 @@ usage() {
   cat <<'TEXT'
 usage: run_lab.sh [flags]      (every flag also as --name=value)
 Installs what is missing, builds, drives three cars for 30 s, prints the result table.
-  --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
+  --scenario FILE         scenario file (YAML), or the name of one of launch_scripts/scenarios
                           (default paper_three_cars; also paper_red_alone, circle, lab_cars)
   --profile NAME          default: every plan optimal, safe under loss of messages between controllers
                           2022: the rules that produced the paper's numbers
@@ -30,16 +30,18 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
                           as the scenario's lab)
   --on_death WHAT         stop (default): when a process dies, the others make a minimal-risk stop and the run ends;
                           continue (real time): the run continues, and a killed controller may be restarted
-                          (launch_scripts/vehicle.sh --id N --only hlc --out DIR)
+                          (launch_scripts/vehicle.sh --vehicle_ids N --only hlc --out DIR)
   --share NAME            none: a middleware and a simulator process per vehicle; machine: one of each for all (default:
                           none up to 4 cars; a drive is the same with both)
   --transport NAME        loopback (default) or lab
   --dds_domain N          lab domain; the vehicles take the next ones (--share machine: one), the controllers N + 50
                           (default: a free block)
   --security DIR          DDS security with the identities of make_security.sh (default: HLC_SECURITY, or none)
-  --dump-problems DIR     write each planning problem to a JSON file in this new or empty folder, for plan_problem; in
+  --dump_problems DIR     write each planning problem to a JSON file in this new or empty folder, for plan_problem; in
                           real time this may delay steps
   --page BOOL             true (default): the run folder gets run.html, the whole run to be watched in a browser
+  --log_level NAME        least severe messages in the logs: trace, debug, info, warning, error, critical or off
+                          (default: the environment variable HLC_LOG_LEVEL, or info)
   --messages BOOL         true (default): the run folder gets run.mcap, every message between the processes, for Foxglove,
                           Lichtblick and the libraries of MCAP
   --view                  prints the address of a page on this machine that shows the run while it drives, best in real
@@ -49,7 +51,10 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
   --startup_timeout_s N   startup timeout (default 20)
   --no_build              use the existing programs
   --bin DIR               use the programs in DIR, build nothing
-Exit codes: 0 success, 1 setup or build failed, or a record or --dump-problems is incomplete, 2 invalid input, 3 startup timeout,
+Examples:
+  run_lab.sh --scenario lab_cars --cars 10
+  run_lab.sh --view --simulated_time=false --out runs/my_run
+Exit codes: 0 success, 1 setup or build failed, or a record or --dump_problems is incomplete, 2 invalid input, 3 startup timeout,
             4 a process died during the run, 5 a vehicle left its plan or touched another one,
             6 all steps driven, but a vehicle was stuck at the end: it had waited for others for 20 s, 130 interrupted
 TEXT
@@ -63,7 +68,7 @@ scenario=paper_three_cars profile=default engine="" priorities="" dump_problems=
 routes="" steps=""
 simulated_time=true noise_seed="" gains_scale="" stamps="" on_death=stop transport=loopback dds_domain="" out="" preset=release
 bin="" build=true share="" page=true messages=true view=false security=${HLC_SECURITY-}
-startup_timeout_s=20
+startup_timeout_s=20 log_level=${HLC_LOG_LEVEL:-info}
 while (($#)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
@@ -78,12 +83,15 @@ while (($#)); do
   esac
   shift
   name=${name#--}
-  [[ $name != dump-problems ]] || name=dump_problems
-  [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a new or an empty folder"
+  if [[ $name == dump-problems ]]; then # up to the last release
+    echo "run_lab.sh: --dump-problems is now --dump_problems" >&2
+    name=dump_problems
+  fi
+  [[ $name != dump_problems || -n $value ]] || fail "--dump_problems = , must be a new or an empty folder"
   case "$name" in
     scenario | profile | engine | priorities | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
       simulated_time | noise_seed | gains_scale | stamps | on_death | transport | dds_domain | out | preset | bin | \
-      share | page | messages | security | startup_timeout_s) printf -v "$name" '%s' "$value" ;;
+      share | page | messages | security | startup_timeout_s | log_level) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
   esac
 done
@@ -115,6 +123,8 @@ in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
 for name in out dump_problems map security bin; do [[ -z ${!name} || ${!name} == /* ]] || printf -v "$name" '%s' "$PWD/${!name}"; done
 [[ -z $security || -r $security/authority.pem ]] ||
   fail "--security = $security: no authority.pem, must be a folder of make_security.sh"
+[[ $log_level =~ ^(trace|debug|info|warning|error|critical|off)$ ]] ||
+  fail "--log_level = $log_level, must be one of trace, debug, info, warning, error, critical, off"
 case "$preset" in
   release | debug | asan | tsan) ;;
   *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
@@ -141,7 +151,7 @@ choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $routes ]] || choices+=(--routes "$routes")
 check=("${choices[@]}")
 [[ -z $steps ]] || check+=(--steps "$steps")
-starts=$("$bin/show_scenario" "${check[@]}" --starts --print_steps --print_period --print_guests) || exit 2
+starts=$("$bin/show_scenario" "${check[@]}" --print_starts --print_steps --print_period --print_guests) || exit 2
 read -r guests by_hand < <(tail -n 1 <<<"$starts")
 period_ms=$(tail -n 2 <<<"$starts" | head -n 1)
 steps=$(tail -n 3 <<<"$starts" | head -n 1)
@@ -215,10 +225,10 @@ make_folder() { # flag, folder
   fi
 }
 [[ -z $out ]] || check_new_or_empty out "$out"
-[[ -z $dump_problems ]] || check_new_or_empty dump-problems "$dump_problems"
+[[ -z $dump_problems ]] || check_new_or_empty dump_problems "$dump_problems"
 [[ -z $out ]] || make_folder out "$out" # first: may contain the problems
 if [[ -n $dump_problems ]]; then
-  make_folder dump-problems "$dump_problems"
+  make_folder dump_problems "$dump_problems"
 fi
 if [[ -z $out ]]; then
   out=$root/runs/$(date +%Y%m%d_%H%M%S)_$(basename "$scenario" .yaml)
@@ -319,6 +329,7 @@ trap end_all EXIT # also when this script fails
 secured=()
 [[ -z $security ]] || secured=(--security "$security")
 flags=(--dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" --out "$out" "${secured[@]}")
+export HLC_LOG_LEVEL=$log_level
 if $view; then # whatever becomes of it, the run goes on
   view_log=$out/logs/view.txt
   with_me "$bin/view" --dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" \
@@ -336,16 +347,16 @@ for group in "${groups[@]}"; do
     pose+=${pose:+,}$(awk -v id="$id" '$1 == id {print $2}' <<<"$starts")
     [[ -z $noise_seed ]] || seeds+=${seeds:+,}$((noise_seed + id))
   done
-  vehicle=("${flags[@]}" --messages "$messages" --on_death "$on_death" --id "$group" --bin "$bin" "${choices[@]}"
+  vehicle=("${flags[@]}" --messages "$messages" --on_death "$on_death" --vehicle_ids "$group" --bin "$bin" "${choices[@]}"
     --startup_timeout_s $((startup_timeout_s + 10)) --pose "$pose" --stamps "$stamps")
   [[ -z $seeds ]] || vehicle+=(--noise_seed "$seeds")
   [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
-  [[ -z $dump_problems ]] || vehicle+=(--dump-problems "$dump_problems")
+  [[ -z $dump_problems ]] || vehicle+=(--dump_problems "$dump_problems")
   HLC_DOMAINS_ARE_RESERVED=1 with_me "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
   children+=($!)
 done
 recorded=()
-$messages && recorded=(--messages "$out/messages")
+$messages && recorded=(--messages_folder "$out/messages")
 guest_flags=()
 if ((${#guest_ids[@]} > 0)); then
   guest_flags=(--guest_ids "$guests")

@@ -15,6 +15,9 @@ usage: run_tests.sh [FOLDER] [--sanitize] [--long] [--unit] [--filter REGEX] [--
   --filter REGEX  only tests whose name matches
   --coverage      instead builds with counters (preset coverage) and prints the line coverage of every folder;
                   details: build/coverage/html
+Examples:
+  run_tests.sh --sanitize
+  run_tests.sh planner/search --filter 'CostToGo.*'
 Exit codes: 0 all passed, 1 setup, build or a test failed, 2 invalid input, also a filter without matching test
 TEXT
 }

@@ -19,6 +19,9 @@ usage() {
   echo "Installs missing packages (as root, or with sudo): ${packages[*]}"
   echo "  --style     also those for check_style.sh: ${style[*]}"
   echo "  --coverage  also those for run_tests.sh --coverage: ${coverage[*]}"
+  echo "Examples:"
+  echo "  setup.sh"
+  echo "  setup.sh --style --coverage"
   echo "Exit codes: 0 success, 1 a package could not be installed, 2 invalid input"
 }
 

@@ -7,8 +7,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
   cat <<'TEXT'
-usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name=value)
-  --id N                  vehicle, 1 ... 30; several, such as 1,2,3: one process with all simulated cars, one
+usage: vehicle.sh --vehicle_ids N --scenario FILE [flags]      (every flag also as --name=value)
+  --vehicle_ids N,N,...   vehicle, 1 ... 30; several, such as 1,2,3: one process with all simulated cars, one
                           middleware, and a controller each
   --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios
   --profile NAME          default or 2022 (default: default)
@@ -26,27 +26,32 @@ usage: vehicle.sh --id N --scenario FILE [flags]      (every flag also as --name
   --transport NAME        loopback (default) or lab
   --dds_domain N          lab domain (default 1). Several vehicles share it; with the transport loopback it must
                           not be one that a run of run_lab.sh or a test uses at the moment
-  --middleware_domain N   local domain of this vehicle (default: lab domain + id, the first of several)
+  --middleware_domain N   local domain of this vehicle (default: lab domain + vehicle, the first of several)
   --controller_domain N   domain of the controllers (default: lab domain + 50)
   --discovery_mode MODE   simple (default: multicast) or client, with the address of the lab domain's discovery server:
                           --discovery_server_id ID, --discovery_server_ip ADDRESS, --discovery_server_port PORT
   --controller_peers A,B  addresses of the other machines, asked on the controllers' domain besides multicast
   --security DIR          DDS security with the identities of make_security.sh (default: HLC_SECURITY, or none)
-  --dump-problems DIR     folder for the controller's planning problems, see plan_problem (default: not written)
+  --dump_problems DIR     folder for the controller's planning problems, see plan_problem (default: not written)
   --pose X,Y,YAW          initial pose of the simulated car, of each of several (default: the scenario's start)
   --noise_seed N          measurement noise from this seed, one for each of several (default: none)
   --gains_scale X         gains of the simulated car's follower (default 1; 0: it does not move)
   --stamps NAME           of the simulated car: exact, or lab: 20 ms early and with the lab's tracking errors (default: as
                           the scenario's lab)
+  --log_level NAME        least severe messages in the logs: trace, debug, info, warning, error, critical or off
+                          (default: the environment variable HLC_LOG_LEVEL, or info)
   --messages BOOL         true: every message of these processes is recorded in --out (default: false)
   --on_death WHAT         stop (default): a process that is killed fails the run; continue: it may be restarted
   --only NAME             restart one process: hlc, middleware or vehicle. Omitted flags are those with
                           which the vehicle of the run in --out was started, except --bin; a car keeps its last pose.
-                          What several vehicles share is restarted with all of them as --id
+                          What several vehicles share is restarted with all of them as --vehicle_ids
   --out DIR               folder for logs and the vehicle's record (default: runs/vehicle_N)
   --bin DIR               folder of the programs (default: build/release/bin)
   --startup_timeout_s N   startup timeout (default 30)
-Exit code: the first failing one of the processes; 2 invalid input
+Examples:
+  vehicle.sh --vehicle_ids 1 --scenario paper_red_alone --dds_domain 40 --out runs/by_hand
+  vehicle.sh --vehicle_ids 2 --only hlc --out runs/my_run
+Exit codes: 0 success, 2 invalid input, otherwise the first failing one of the processes
 TEXT
 }
 
@@ -54,17 +59,18 @@ fail() { echo "vehicle.sh: $1" >&2; exit 2; }
 # shellcheck source=SCRIPTDIR/domain_locks.sh
 source "$root/launch_scripts/domain_locks.sh"
 
-id="" scenario="" profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed="" routes=""
+vehicle_ids="" scenario="" profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed="" routes=""
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
-security=${HLC_SECURITY-} noise_seed="" gains_scale="" stamps="" messages=false on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
-kept_flags=(id scenario profile engine priorities dump_problems subgraph policy map cars seed routes simulated_time transport
+security=${HLC_SECURITY-} noise_seed="" gains_scale="" stamps="" log_level=${HLC_LOG_LEVEL:-info} messages=false on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
+kept_flags=(vehicle_ids scenario profile engine priorities dump_problems subgraph policy map cars seed routes simulated_time transport
   discovery_mode discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
-  controller_domain security pose noise_seed gains_scale stamps messages on_death startup_timeout_s shared_by)
+  controller_domain security pose noise_seed gains_scale stamps log_level messages on_death startup_timeout_s shared_by)
 # Whose programs run is never read from a run folder: --bin is not kept.
 take_flags() {
   local name value
+  renamed() { echo "vehicle.sh: --$name is now --$1" >&2; name=$1; }
   while (($#)); do
     case "$1" in
       -h | --help) usage; exit 0 ;;
@@ -77,8 +83,11 @@ take_flags() {
     esac
     shift
     name=${name#--}
-    [[ $name != dump-problems ]] || name=dump_problems
-    [[ $name != dump_problems || -n $value ]] || fail "--dump-problems = , must be a folder"
+    case "$name" in # up to the last release
+      id) renamed vehicle_ids ;;
+      dump-problems) renamed dump_problems ;;
+    esac
+    [[ $name != dump_problems || -n $value ]] || fail "--dump_problems = , must be a folder"
     [[ $name =~ ^(out|only|bin)$ || " ${kept_flags[*]} " == *" $name "* ]] || fail "unknown flag --$name (see --help)"
     printf -v "$name" '%s' "$value"
   done
@@ -87,7 +96,7 @@ take_flags "$@"
 name_of() { # ids: 3, or 1-20 for several
   if [[ $1 == *,* ]]; then echo "${1%%,*}-${1##*,}"; else echo "$1"; fi
 }
-flags_file=$out/logs/vehicle_$(name_of "$id").flags
+flags_file=$out/logs/vehicle_$(name_of "$vehicle_ids").flags
 if [[ -n $only && -n $out && -e $flags_file ]]; then
   [[ -O $out && -O $flags_file && -f $flags_file ]] || fail "--out = $out: of another user, must be a run of this one"
   mapfile -d '' -t former <"$flags_file"
@@ -104,18 +113,18 @@ case "$only" in
 esac
 [[ $messages == true || $messages == false ]] || fail "--messages = $messages, must be one of true, false"
 [[ $on_death == stop || $on_death == continue ]] || fail "--on_death = $on_death, must be one of stop, continue"
-[[ $id =~ ^[0-9]{1,2}(,[0-9]{1,2})*$ ]] || fail "--id = $id, must be in 1 ... 30"
+[[ $vehicle_ids =~ ^[0-9]{1,2}(,[0-9]{1,2})*$ ]] || fail "--vehicle_ids = $vehicle_ids, must be in 1 ... 30"
 ids=()
-for one in ${id//,/ }; do
+for one in ${vehicle_ids//,/ }; do
   one=$((10#$one))
-  ((one >= 1 && one <= 30)) || fail "--id = $id, must be in 1 ... 30"
-  [[ " ${ids[*]} " != *" $one "* ]] || fail "--id = $id, must be different numbers"
+  ((one >= 1 && one <= 30)) || fail "--vehicle_ids = $vehicle_ids, must be in 1 ... 30"
+  [[ " ${ids[*]} " != *" $one "* ]] || fail "--vehicle_ids = $vehicle_ids, must be different numbers"
   ids+=("$one")
 done
-id=$(IFS=,; echo "${ids[*]}")
-[[ $only == "" || $only == hlc || -z $shared_by || $shared_by == "$id" ]] ||
-  fail "--only = $only: vehicle $id shares it, must be with --id $shared_by"
-[[ $only != hlc || ${#ids[@]} == 1 ]] || fail "--only = hlc: --id = $id, must be one vehicle"
+vehicle_ids=$(IFS=,; echo "${ids[*]}")
+[[ $only == "" || $only == hlc || -z $shared_by || $shared_by == "$vehicle_ids" ]] ||
+  fail "--only = $only: vehicle $vehicle_ids shares it, must be with --vehicle_ids $shared_by"
+[[ $only != hlc || ${#ids[@]} == 1 ]] || fail "--only = hlc: --vehicle_ids = $vehicle_ids, must be one vehicle"
 whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a whole number"; }
 for name in cars seed dds_domain middleware_domain controller_domain startup_timeout_s; do
   whole_number "$name" "${!name}"
@@ -125,12 +134,14 @@ for one in ${noise_seed//,/ }; do whole_number noise_seed "$one"; done
 [[ -z $stamps || $stamps == exact || $stamps == lab ]] || fail "--stamps = $stamps, must be one of exact, lab"
 [[ -z $gains_scale || $stamps != lab ]] || fail "--stamps = lab with --gains_scale, must be exact: the lab's follower has no gains"
 [[ -z $gains_scale ]] || stamps=exact
+[[ $log_level =~ ^(trace|debug|info|warning|error|critical|off)$ ]] ||
+  fail "--log_level = $log_level, must be one of trace, debug, info, warning, error, critical, off"
 [[ -n $scenario ]] || fail "--scenario is missing"
 [[ ! -e $scenario || $scenario == /* ]] || scenario=$PWD/$scenario
 [[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/${scenario%.yaml}.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
 [[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + ids[0]))
-[[ -n $out ]] || out=$root/runs/vehicle_$(name_of "$id")
+[[ -n $out ]] || out=$root/runs/vehicle_$(name_of "$vehicle_ids")
 if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/run.json"; then
   fail "--out = $out: a finished run, must be a new folder; --only requires a running one"
 fi
@@ -145,7 +156,7 @@ if [[ $transport == loopback && -z ${HLC_DOMAINS_ARE_RESERVED-} && -z $only ]]; 
 fi
 if [[ -n $dump_problems ]]; then # other vehicles of the run may write there, too
   { mkdir -p -- "$dump_problems" && probe=$(mktemp -- "$dump_problems/XXXXXX") && rm -- "$probe"; } 2>/dev/null ||
-    fail "--dump-problems = $dump_problems: not writable, must be a folder that can be created and written to"
+    fail "--dump_problems = $dump_problems: not writable, must be a folder that can be created and written to"
 fi
 mkdir -p "$out/logs" 2>/dev/null || fail "--out = $out: not writable"
 [[ -x $bin/vehicle_sim ]] || fail "--bin = $bin: no programs there, build first"
@@ -170,35 +181,35 @@ if [[ $only == vehicle && -s $out/vehicle_${ids[0]}.csv && " $*" != *" --pose"* 
   ((${#ids[@]} != $(wc -l <<<"$last"))) || pose=$(paste -sd, <<<"${last:-$pose}")
 fi
 if [[ (-z $pose || -z $stamps) && $only != hlc && $only != middleware ]]; then
-  starts=$("$bin/show_scenario" "${choices[@]}" --starts) || exit 2
+  starts=$("$bin/show_scenario" "${choices[@]}" --print_starts) || exit 2
   [[ -n $stamps ]] || stamps=$(awk 'NR == 1 {print $3}' <<<"$starts")
 fi
 if [[ -z $pose && $only != hlc && $only != middleware ]]; then
   for one in "${ids[@]}"; do
     start=$(awk -v id="$one" '$1 == id {print $2}' <<<"$starts")
-    [[ -n $start ]] || fail "--id = $one, must be one of $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
+    [[ -n $start ]] || fail "--vehicle_ids = $one, must be one of $(awk '{printf "%s%s", s, $1; s = ", "}' <<<"$starts"), or any with --pose"
     pose+=${pose:+,}$start
   done
 fi
 
 common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transport="$transport"
-  --startup_timeout_s="$startup_timeout_s")
-! $messages || common+=(--messages="$out/messages")
+  --startup_timeout_s="$startup_timeout_s" --log_level="$log_level")
+! $messages || common+=(--messages_folder="$out/messages")
 for name in discovery_mode discovery_server_id discovery_server_ip discovery_server_port security; do
   [[ -z ${!name} ]] || common+=("--$name=${!name}")
 done
-vehicle=(--vehicle_ids="$id" --pose="$pose" --guests="$scenario" --record="$out/vehicle_{id}.csv" "${appends[@]}")
+vehicle=(--vehicle_ids="$vehicle_ids" --pose="$pose" --guests="$scenario" --record="$out/vehicle_{id}.csv" "${appends[@]}")
 [[ -z $noise_seed ]] || vehicle+=(--noise_seed="$noise_seed")
 [[ -z $gains_scale ]] || vehicle+=(--gains_scale="$gains_scale")
 [[ -z $stamps ]] || vehicle+=(--stamps="$stamps")
 controller=("${choices[@]}")
 [[ -z $controller_domain ]] || controller+=(--controller_domain="$controller_domain")
 [[ -z $controller_peers ]] || controller+=(--controller_peers="$controller_peers")
-[[ -z $dump_problems ]] || controller+=(--dump-problems="$dump_problems")
+[[ -z $dump_problems ]] || controller+=(--dump_problems="$dump_problems")
 
 # With two controllers a car would follow both alternately.
 if [[ -n $only ]]; then
-  process=${only/#hlc/high_level_controller}_$(name_of "$id")
+  process=${only/#hlc/high_level_controller}_$(name_of "$vehicle_ids")
   pid=$(awk -v name="$process" '$2 == name {pid = $1} END {print pid}' "$out/logs/vehicle_${ids[0]}.pids" 2>/dev/null)
   program=$(basename "$(readlink "/proc/${pid:-none}/exe" 2>/dev/null)" " (deleted)") # rebuilt meanwhile
   [[ ! $program =~ ^(vehicle_sim|middleware|high_level_controller)$ ]] ||
@@ -208,14 +219,14 @@ fi
 scenario=$(realpath "$scenario") bin=$(realpath "$bin")
 [[ -z $map ]] || map=$(realpath "$map")
 keep_flags() { # ids
-  local id=$1 name
+  local vehicle_ids=$1 name
   for name in "${kept_flags[@]}"; do
     [[ -z ${!name} ]] || printf '%s\0' "--$name=${!name}"
-  done >"$out/logs/vehicle_$(name_of "$id").flags"
+  done >"$out/logs/vehicle_$(name_of "$vehicle_ids").flags"
 }
 if [[ -z $only ]]; then
-  ((${#ids[@]} == 1)) || shared_by=$id
-  for one in $id "${ids[@]}"; do keep_flags "$one"; done
+  ((${#ids[@]} == 1)) || shared_by=$vehicle_ids
+  for one in $vehicle_ids "${ids[@]}"; do keep_flags "$one"; done
 fi
 
 declare -A names=() # of running processes, by pid
@@ -246,13 +257,13 @@ start() { # name for --only, name, program and flags
   setpriv --pdeathsig TERM -- "$@" >>"$out/logs/$name.log" 2>&1 </dev/null &
   names[$!]=$name
 }
-all=$(name_of "$id")
+all=$(name_of "$vehicle_ids")
 start vehicle "vehicle_$all" "$bin/vehicle_sim" "${common[@]}" "${vehicle[@]}"
-start middleware "middleware_$all" "$bin/middleware" "${common[@]}" --vehicle_ids="$id" \
+start middleware "middleware_$all" "$bin/middleware" "${common[@]}" --vehicle_ids="$vehicle_ids" \
   --middleware_domain="$middleware_domain"
 # One program reads the scenario for all controllers, each of which is a process of its own. Those that may
 # be restarted start alone.
-controllers=("$id")
+controllers=("$vehicle_ids")
 [[ $on_death == stop ]] || controllers=("${ids[@]}")
 for one in "${controllers[@]}"; do
   start hlc "high_level_controller_$(name_of "$one")" "$bin/high_level_controller" "${common[@]}" --vehicle_ids="$one" \
@@ -273,9 +284,9 @@ while true; do
     wait "$pid"
     code=$?
     if ((code > 128)) && [[ $on_death == continue ]]; then
-      which=${names[$pid]%_*} of=$id
+      which=${names[$pid]%_*} of=$vehicle_ids
       [[ $which != high_level_controller ]] || of=${names[$pid]##*_}
-      echo "${names[$pid]} was killed; restart: $0 --id $of --only ${which/high_level_controller/hlc} --out ${out@Q} --bin ${bin@Q}" >&2
+      echo "${names[$pid]} was killed; restart: $0 --vehicle_ids $of --only ${which/high_level_controller/hlc} --out ${out@Q} --bin ${bin@Q}" >&2
     elif ((code != 0)); then
       echo "${names[$pid]} ended with exit code $code: $(tail -n 1 "$out/logs/${names[$pid]}.log")" >&2
       ((first != 0)) || first=$code

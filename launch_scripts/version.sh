@@ -6,6 +6,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 usage() {
   echo "usage: version.sh [NAME]"
   echo "Prints NAME (default: hlc), the project's version and the revision of the sources."
+  echo "Examples:"
+  echo "  version.sh"
+  echo "  version.sh run_lab.sh"
+  echo "Exit codes: 0 success, 2 invalid input"
 }
 
 name=hlc

@@ -50,31 +50,34 @@ struct Flags {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("--vehicle", flags.vehicles, "vehicles to ask, e.g. 1,2; default: all")
+  app.add_option("--vehicle_ids", flags.vehicles, "vehicles to ask, e.g. 1,2; default: all")
       ->delimiter(',')
       ->check(hlc::apps::vehicle_id_range());
   auto* const criterion =
-      app.add_option("--criterion", flags.criteria,
+      app.add_option("--criteria", flags.criteria,
                      "labels of the maneuvers, e.g. J2, or J1,J2; default: the scenario's")
           ->delimiter(',');
   app.add_option("--weights", flags.weights,
                  "instead: maneuvers that are optimal for a weighted sum of criteria, e.g. "
-                 "J1=0.3,J2=0.7; missing maneuvers are computed in the background")
+                 "J1=0.3,J2=0.7; missing maneuvers are computed in the background; default: none")
       ->delimiter(',')
       ->excludes(criterion);
-  app.add_option("--max_speed", flags.max_speed_mps, "speed limit [m/s]; default: the scenario's")
+  app.add_option("--max_speed_mps", flags.max_speed_mps,
+                 "speed limit [m/s]; default: the scenario's")
       ->check(hlc::apps::within(0.0, 100.0));
   const auto add_trims = [&app](const std::string& name, std::vector<int>& trims,
                                 const std::string& what) {
     app.add_option(name, trims, what)->delimiter(',')->check(hlc::apps::whole(1, 100'000));
   };
-  add_trims("--enable_trims", flags.enable_trims, "trims beside the scenario's, numbered from 1");
+  add_trims("--enable_trims", flags.enable_trims,
+            "trims beside the scenario's, numbered from 1; default: none");
   add_trims("--disable_trims", flags.disable_trims,
-            "trims of the scenario's that are not to be used");
+            "trims of the scenario's that are not to be used; default: none");
   app.add_option("--enable_edges", flags.enable_edges,
-                 "edges that the scenario disables, from:to, e.g. 2:3,3:2")
+                 "edges that the scenario disables, from:to, e.g. 2:3,3:2; default: none")
       ->delimiter(',');
-  app.add_option("--disable_edges", flags.disable_edges, "edges that are not to be used, from:to")
+  app.add_option("--disable_edges", flags.disable_edges,
+                 "edges that are not to be used, from:to; default: none")
       ->delimiter(',');
   auto* const in_s = app.add_option("--in_s", flags.in_s, "real time: in force so much later")
                          ->capture_default_str()
@@ -94,11 +97,17 @@ void declare(CLI::App& app, Flags& flags) {
                  "domain of the controllers; default: lab domain + 50");
   hlc::apps::declare_controller_peers(app, flags.controller_peers);
   flags.network.declare_network(app);
-  app.footer(
-      "A request is a change of the scenario's subgraph, not of the last request: without any it "
-      "is for the scenario's own, or the choice of the vehicle's policies. A zone's speed limit "
-      "holds for every request. Exit codes: 0 in force, 1 a controller refused, 2 invalid input, "
-      "3 a controller did not answer.");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples = {"automaton_request --dds_domain 40 --transport loopback --vehicle_ids 2 "
+                    "--max_speed_mps 0.5",
+                    "automaton_request --dds_domain 40 --transport loopback --weights "
+                    "J1=0.3,J2=0.7 --follow"},
+       .exit_codes =
+           "0 in force, 1 a controller refused, 2 invalid input, 3 a controller did not answer",
+       .notes = "A request is a change of the scenario's subgraph, not of the last request: "
+                "without any it is for the scenario's own, or the choice of the vehicle's "
+                "policies. A zone's speed limit holds for every request."});
 }
 
 std::vector<hlc::TrimId> trims_of(const std::vector<int>& numbers) {
@@ -227,8 +236,8 @@ class Asker {
     return signal_.locked([this] { return stop_; });
   }
 
-  /// Controllers that are matched in both directions. Without --vehicle: all that are matched one
-  /// second after the first one.
+  /// Controllers that are matched in both directions. Without --vehicle_ids: all that are matched
+  /// one second after the first one.
   bool find_controllers() {
     const auto all_matched = [this] {
       return stop_ || std::ranges::all_of(asked_, [this](int id) { return is_matched(id); });
@@ -348,11 +357,16 @@ int main(int argc, char** argv) {
                "automaton_request"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv,
+                                               {{"--vehicle", "--vehicle_ids"},
+                                                {"--criterion", "--criteria"},
+                                                {"--max_speed", "--max_speed_mps"}})) {
+    return *code;
+  }
   return hlc::apps::run_program(
       "automaton_request", signals,
       [&] {
-        hlc::apps::check_each_once("--vehicle", flags.vehicles);
+        hlc::apps::check_each_once("--vehicle_ids", flags.vehicles);
         return std::make_shared<Asker>(flags);
       },
       [](Asker& asker) { asker.stop(); });

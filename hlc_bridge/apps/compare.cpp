@@ -67,13 +67,15 @@ int main(int argc, char** argv) {
   std::filesystem::path run_a;
   std::filesystem::path run_b;
   hlc::apps::OutputFile html{.flag = "--html", .file = {}};
-  app.add_option("RUN_A", run_a, "run folder")->required();
-  app.add_option("RUN_B", run_b, "run folder")->required();
+  app.add_option("RUN_A", run_a, "run folder")->required()->type_name("DIR");
+  app.add_option("RUN_B", run_b, "run folder")->required()->type_name("DIR");
   hlc::apps::declare_output(app, html, "the same as a page, with a picture of both runs' paths");
-  app.footer(
-      "Exit codes: 0 the runs are equal, 1 they differ, 2 invalid input or an output that cannot "
-      "be written. Measured times and how the runs were started do not count.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
-  return hlc::apps::exit_code_of(
-      "compare", [&] { return compare_runs(run_a, run_b, html); }, hlc::kExitBadInput);
+  hlc::apps::declare_help_end(
+      app, {.examples = {"compare runs/my_run runs/other_run",
+                         "compare runs/my_run runs/other_run --html comparison.html"},
+            .exit_codes = "0 the runs are equal, 1 they differ, 2 invalid input or an output that "
+                          "cannot be written",
+            .notes = "Measured times and how the runs were started do not count."});
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("compare", [&] { return compare_runs(run_a, run_b, html); });
 }

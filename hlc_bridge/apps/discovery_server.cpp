@@ -32,12 +32,16 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--discovery_server_ip", flags.ip,
                  "IPv4 address of this machine at which the others reach it")
       ->required();
-  app.add_option("--discovery_server_port", flags.port, "port")->capture_default_str();
+  app.add_option("--discovery_server_port", flags.port, "UDP port")->capture_default_str();
   hlc::apps::declare_transport(app, flags.transport);
-  app.footer(
-      "Runs until it is stopped. The others find each other through it with "
-      "--discovery_mode=client and the same --discovery_server_... flags. "
-      "Exit codes: 0 stopped, 2 invalid input.");
+  hlc::apps::declare_log_level(app);
+  hlc::apps::declare_help_end(
+      app, {.examples = {"discovery_server --discovery_server_ip 192.168.1.249",
+                         "discovery_server --discovery_server_ip 127.0.0.1 --dds_domain 40 "
+                         "--transport loopback"},
+            .exit_codes = "0 stopped, 2 invalid input",
+            .notes = "Runs until it is stopped. The others find each other through it with "
+                     "--discovery_mode=client and the same --discovery_server_... flags."});
 }
 
 /// The library reports nothing for an address that it cannot serve.
@@ -104,7 +108,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Introduces the participants of the lab domain to each other.", "discovery_server"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   return hlc::apps::run_program(
       "discovery_server", signals, [&] { return make_server(flags); },
       [](Server& server) { server.stop(); });

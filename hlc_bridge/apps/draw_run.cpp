@@ -66,18 +66,19 @@ std::optional<Size> size_of(const std::string& text) {
 }
 
 void declare(CLI::App& app, Choices& choices) {
-  app.add_option("RUN", choices.run, "run folder")->required();
+  hlc::apps::declare_run(app, choices.run);
   CLI::Option* const at =
-      app.add_option("--at", choices.at_s, "time of the picture, s since the begin of the run");
+      app.add_option("--at_s", choices.at_s,
+                     "time of the picture, since the begin of the run; required without --video");
   CLI::Option* const out = hlc::apps::declare_output(
       app, choices.picture, "picture: .png, or .svg or .pdf, which keep sharp at any size");
   CLI::Option* const video = hlc::apps::declare_output(app, choices.video, "video: .mp4 or .gif");
   at->needs(out)->excludes(video);
   out->needs(at);
-  app.add_option("--from", choices.from_s, "begin of the video, s; default: of the run")
+  app.add_option("--from_s", choices.from_s, "begin of the video; default: of the run")
       ->needs(video);
-  app.add_option("--to", choices.to_s, "end of the video, s; default: of the run")->needs(video);
-  app.add_option("--speed", choices.speed, "of the video; 2: twice as fast as the cars drove")
+  app.add_option("--to_s", choices.to_s, "end of the video; default: of the run")->needs(video);
+  app.add_option("--speed", choices.speed, "factor: 2 shows the cars twice as fast as they drove")
       ->check(hlc::apps::within(0.01, 100.0))
       ->capture_default_str()
       ->needs(video);
@@ -91,13 +92,14 @@ void declare(CLI::App& app, Choices& choices) {
           fmt::format("WIDTHxHEIGHT, even numbers in {} ... {}", kLeastPx, kMostPx), ""))
       ->capture_default_str();
   app.add_flag("--dark", choices.dark, "light on dark");
-  app.add_option("--follow", choices.follow, "id of a car that stays in the middle, larger");
-  app.footer(
-      "Examples:\n"
-      "  draw_run runs/my_run --at 7.4 --out frame.pdf\n"
-      "  draw_run runs/my_run --video run.mp4 --from 4 --to 12 --speed 0.5 --follow 2 --dark\n"
-      "Exit codes: 0 success, 1 chromium or ffmpeg is missing or failed, 2 invalid input or an "
-      "output that cannot be written, 130 interrupted.");
+  app.add_option("--vehicle_id", choices.follow,
+                 "of a car that stays in the middle, larger; default: none");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"draw_run runs/my_run --at_s 7.4 --out frame.pdf",
+                         "draw_run runs/my_run --video run.mp4 --from_s 4 --to_s 12 --speed 0.5 "
+                         "--vehicle_id 2 --dark"},
+            .exit_codes = "0 success, 1 chromium or ffmpeg is missing or failed, 2 invalid input "
+                          "or an output that cannot be written, 130 interrupted"});
 }
 
 /// @throws std::invalid_argument naming the flag
@@ -131,21 +133,21 @@ Times times_of(const Choices& choices, const hlc::record::RunFolder& run) {
   const auto num_steps = static_cast<double>(run.rows.back().step + 1);
   const Times all{.begin_s = 0.0, .end_s = num_steps * run.description.step_s};
   if (choices.at_s) {
-    const double at_s = time_of("--at", choices.at_s, 0.0, all);
+    const double at_s = time_of("--at_s", choices.at_s, 0.0, all);
     return {.begin_s = at_s, .end_s = at_s};
   }
-  const Times shown{.begin_s = time_of("--from", choices.from_s, all.begin_s, all),
-                    .end_s = time_of("--to", choices.to_s, all.end_s, all)};
+  const Times shown{.begin_s = time_of("--from_s", choices.from_s, all.begin_s, all),
+                    .end_s = time_of("--to_s", choices.to_s, all.end_s, all)};
   if (shown.begin_s < shown.end_s) return shown;
   throw std::invalid_argument(
-      fmt::format("--from = {}, must be < --to = {}", shown.begin_s, shown.end_s));
+      fmt::format("--from_s = {}, must be < --to_s = {}", shown.begin_s, shown.end_s));
 }
 
 /// @throws std::invalid_argument naming the flag
 void check_followed(const Choices& choices, const hlc::result::RunFacts& facts) {
   const auto is_followed = [&](int id) { return id == choices.follow; };
   if (!choices.follow || std::ranges::any_of(facts.vehicle_ids, is_followed)) return;
-  throw std::invalid_argument(fmt::format("--follow = {}, must be one of {}", *choices.follow,
+  throw std::invalid_argument(fmt::format("--vehicle_id = {}, must be one of {}", *choices.follow,
                                           fmt::join(facts.vehicle_ids, ", ")));
 }
 
@@ -267,19 +269,22 @@ int draw(const Choices& choices) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Draws a run as its page shows it: a moment as a picture (--at, --out), or some time as a "
+      "Draws a run as its page shows it: a moment as a picture (--at_s, --out), or some time as a "
       "video (--video). Needs chromium, and ffmpeg for a video.",
       "draw_run"};
   Choices choices;
   declare(app, choices);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
-  return hlc::apps::exit_code_of(
-      "draw_run",
-      [&] {
-        if (!choices.at_s && !choices.video.file) {
-          throw std::invalid_argument("--at and --out, or --video must be given");
-        }
-        return draw(choices);
-      },
-      hlc::kExitBadInput);
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv,
+                                               {{"--at", "--at_s"},
+                                                {"--from", "--from_s"},
+                                                {"--to", "--to_s"},
+                                                {"--follow", "--vehicle_id"}})) {
+    return *code;
+  }
+  return hlc::apps::exit_code_of("draw_run", [&] {
+    if (!choices.at_s && !choices.video.file) {
+      throw std::invalid_argument("--at_s and --out, or --video must be given");
+    }
+    return draw(choices);
+  });
 }

@@ -104,23 +104,28 @@ int main(int argc, char** argv) {
   std::filesystem::path run;
   hlc::scenario::ScenarioChoices choices;
   hlc::apps::OutputFile out{.flag = "--out", .file = {}};
-  app.add_option("--run", run, "run folder")->required();
+  hlc::apps::declare_run(app, run);
   hlc::apps::declare_output(app, out, "CommonRoad file (XML)")->required();
   hlc::apps::declare_scenario_flags(app, choices);
   app.get_option("--scenario")
       ->required(false)
-      ->description("scenario file (YAML); default: this and the following from the run folder");
+      ->description(
+          "file (YAML), or the name of one of launch_scripts/scenarios; default: this and the "
+          "following from the run folder");
   for (CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
     if (name != "--help" && name != "--run" && name != "--out" && name != "--scenario") {
       option->needs("--scenario");
     }
   }
-  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  hlc::apps::declare_help_end(
+      app, {.examples = {
+                "export_commonroad runs/my_run --out run.xml",
+                "export_commonroad --run runs/by_hand --scenario paper_red_alone --out run.xml"}});
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   const auto write = [&] {
     hlc::apps::check_output_files({out}, {run / "run.json", run / "reports.csv"});
     hlc::write_file(*out.file, export_run(run, choices));
   };
-  return hlc::apps::exit_code_of("export_commonroad", write, hlc::kExitBadInput);
+  return hlc::apps::exit_code_of("export_commonroad", write);
 }

@@ -18,7 +18,7 @@ namespace hlc::apps {
 namespace {
 
 constexpr const char* kHowExplained =
-    "explain RUN --vehicle VEHICLE --step STEP answers it (with --tree also what was searched); "
+    "explain RUN --vehicle_id VEHICLE --step STEP answers it (with --tree also what was searched); "
     "explain RUN --all fills this row where a car stands, waits or keeps its plan";
 constexpr const char* kNotExplained =
     "only a run in logical time can be explained (run_lab.sh --simulated_time=true)";

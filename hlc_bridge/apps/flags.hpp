@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/apps/log_flag.hpp"
 #include "hlc_bridge/dds/transport.hpp"
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "planner/apps/flags.hpp"
@@ -28,12 +29,13 @@ inline constexpr const char* kDiscoveryServerPort = "11811";
 inline void declare_controller_peers(CLI::App& app, std::vector<std::string>& peers) {
   app.add_option("--controller_peers", peers,
                  "IPv4 addresses of the other machines, asked on the controllers' domain besides "
-                 "multicast, e.g. 192.168.1.201,192.168.1.202")
+                 "multicast, e.g. 192.168.1.201,192.168.1.202; default: none")
       ->delimiter(',');
 }
 
 inline void declare_transport(CLI::App& app, std::string& transport) {
-  app.add_option("--transport", transport)
+  app.add_option("--transport", transport,
+                 "lab: as the lab's own programs; loopback: nothing leaves this machine")
       ->check(among({"lab", "loopback"}))
       ->capture_default_str();
 }
@@ -59,26 +61,32 @@ struct NetworkFlags {
                    "controllers wait for the start without a limit")
         ->capture_default_str()
         ->check(whole(1, 3600));
-    app.add_option(
-        "--messages", messages,
-        "folder: every message that this process publishes is recorded there, in an MCAP "
-        "file of its own; default: none");
+    app.add_option("--messages_folder", messages,
+                   "every message that this process publishes is recorded there, in an MCAP file "
+                   "of its own; default: none")
+        ->type_name("DIR");
   }
 
   /// The flags that do not concern a run.
   void declare_network(CLI::App& app) {
     app.add_option("--dds_domain", dds_domain, "lab domain")->capture_default_str();
     declare_transport(app, transport);
-    app.add_option("--discovery_mode", discovery_mode)->check(among({"simple", "client"}));
+    app.add_option("--discovery_mode", discovery_mode,
+                   "simple: multicast; client: by the lab domain's discovery server (default: "
+                   "simple)")
+        ->check(among({"simple", "client"}));
     app.add_option("--discovery_server_id", discovery_server_id,
                    std::string("GUID prefix; default, as in the lab: ") + kDiscoveryServerId);
-    app.add_option("--discovery_server_ip", discovery_server_ip, "IPv4 address");
+    app.add_option("--discovery_server_ip", discovery_server_ip,
+                   "IPv4 address; required with client");
     app.add_option("--discovery_server_port", discovery_server_port,
-                   std::string("port; default, as in the lab: ") + kDiscoveryServerPort);
+                   std::string("UDP port; default, as in the lab: ") + kDiscoveryServerPort);
     app.add_option("--security", security,
                    "folder of make_security.sh: DDS security, only with processes of the same "
                    "folder; default: none")
-        ->envname("HLC_SECURITY");
+        ->envname("HLC_SECURITY")
+        ->type_name("DIR");
+    declare_log_level(app);
   }
 
   /// @throws std::invalid_argument naming the flag
@@ -96,6 +104,10 @@ struct NetworkFlags {
   }
 };
 
+/// Of the flags of the programs that the lab starts.
+inline const std::vector<FormerName> kFormerLabNames{{"--messages", "--messages_folder"},
+                                                     {"--dump-problems", "--dump_problems"}};
+
 /// parse_flags for the programs that the lab starts. On the lab's transport they ignore unknown
 /// flags with a warning, as the lab's own programs do: the lab appends the operator's script
 /// parameters to the middleware's command line.
@@ -103,7 +115,7 @@ struct NetworkFlags {
 inline std::optional<int> parse_lab_flags(CLI::App& app, const NetworkFlags& network, int argc,
                                           char** argv) {
   app.allow_extras();
-  if (const auto code = parse_flags(app, argc, argv, kExitBadInput)) return code;
+  if (const auto code = parse_flags(app, argc, argv, kFormerLabNames)) return code;
   const std::vector<std::string> unknown = app.remaining();
   if (unknown.empty()) return std::nullopt;
   if (network.transport == "lab") {

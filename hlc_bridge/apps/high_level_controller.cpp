@@ -61,24 +61,26 @@ void declare(CLI::App& app, Flags& flags) {
   app.get_option("--scenario")
       ->required(false)
       ->description(
-          "scenario file (YAML), or the name of one in the folder scenarios beside this program; "
+          "file (YAML), or the name of one in the folder scenarios beside this program; "
           "default: environment variable HLC_SCENARIO, else the only line of the file "
           "default_scenario beside this program, else lab_three_cars");
   app.add_option("--node_id", flags.node_id,
                  "name in the log, with several vehicles _<id> is appended; default: "
                  "high_level_controller_<id>");
-  app.add_option("--dds_initial_peer", flags.dds_initial_peer,
-                 "accepted and ignored: the lab's scripts pass it, but no program reads it");
+  app.add_option(
+      "--dds_initial_peer", flags.dds_initial_peer,
+      "accepted and ignored: the lab's scripts pass it, but no program reads it; default: none");
   app.add_option("--middleware_domain", flags.middleware_domain, "local domain")
       ->capture_default_str();
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
   hlc::apps::declare_controller_peers(app, flags.controller_peers);
   app.add_option(
-      "--dump-problems,--dump_problems", flags.problem_folder,
-      "folder for the planning problems, one JSON file each (see plan_problem). They are "
-      "written after a step's command; plans stay the same, but in real time "
-      "a slow disk may delay the next step");
+         "--dump_problems", flags.problem_folder,
+         "folder for the planning problems, one JSON file each (see plan_problem). They are "
+         "written after a step's command; plans stay the same, but in real time "
+         "a slow disk may delay the next step")
+      ->type_name("DIR");
   app.add_option("--thread_priority", flags.thread_priority,
                  "real-time priority of the planning thread, where the system allows it; 0: none")
       ->capture_default_str()
@@ -86,10 +88,15 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--core", flags.core, "processor core of the planning thread; default: any")
       ->check(hlc::apps::whole(0, hlc::time::kMaxCore));
   flags.network.declare(app);
-  app.footer(
-      "Exit codes: 0 success, 1 success, but --dump-problems or --messages is incomplete, 2 "
-      "invalid input, 3 "
-      "startup timeout, 4 the middleware or lab control died.");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples = {"high_level_controller --vehicle_ids 1 --scenario paper_red_alone --dds_domain "
+                    "40 --middleware_domain 41 --transport loopback --simulated_time true",
+                    "high_level_controller --vehicle_ids 1,2 --scenario lab_three_cars --log_level "
+                    "warning"},
+       .exit_codes =
+           "0 success, 1 success, but --dump_problems or --messages_folder is incomplete, 2 "
+           "invalid input, 3 startup timeout, 4 the middleware or lab control died"});
 }
 
 hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::VehicleId id) {

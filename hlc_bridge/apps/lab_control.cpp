@@ -49,24 +49,26 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--steps", flags.steps, "control steps of the run")
       ->capture_default_str()
       ->check(hlc::apps::whole(1, 10000));
-  app.add_option("--period_ms", flags.period_ms, "of the control steps")
+  app.add_option("--period_ms", flags.period_ms, "duration of a control step")
       ->capture_default_str()
       ->check(hlc::apps::whole(20, 10000));
-  app.add_option("--out", flags.out, "run folder for reports.csv and run.json; default: none");
+  app.add_option("--out", flags.out, "run folder for reports.csv and run.json; default: none")
+      ->type_name("DIR");
   app.add_option(
          "--on_death", flags.on_death,
          "stop: minimal-risk stop of all cars, then end of the run; continue (real time): go on; a "
          "process that died may be restarted")
       ->capture_default_str()
       ->check(CLI::IsMember({"stop", "continue"}));
-  app.footer(
-      "Exit codes: 0 success, 1 success, but --out or --messages is incomplete, 2 invalid input, 3 "
-      "startup "
-      "timeout, 4 a process died during the "
-      "run "
-      "(--on_death continue: and was not back at its end), 6 driven, but a vehicle was stuck at "
-      "the "
-      "end, 130 interrupted.");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples = {"lab_control --vehicle_ids 1 --dds_domain 40 --transport loopback "
+                    "--simulated_time true --out runs/by_hand",
+                    "lab_control --vehicle_ids 1,2,3 --steps 300 --on_death continue"},
+       .exit_codes =
+           "0 success, 1 success, but --out or --messages_folder is incomplete, 2 invalid input, 3 "
+           "startup timeout, 4 a process died during the run (--on_death continue: and was not "
+           "back at its end), 6 driven, but a vehicle was stuck at the end, 130 interrupted"});
 }
 
 hlc::process::LabControlOptions process_options(const Flags& flags) {

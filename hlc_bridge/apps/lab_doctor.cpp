@@ -45,9 +45,12 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str()
       ->check(hlc::apps::within(0.5, 600.0));
   flags.network.declare_network(app);
-  app.footer(
-      "Exit codes: 0 no bad finding, 1 a bad finding, 2 invalid input or an output that cannot be "
-      "written.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"lab_doctor --vehicle_ids 1,2,3",
+                         "lab_doctor --vehicle_ids 1 --dds_domain 40 --middleware_domain 41 "
+                         "--transport loopback --listen_s 10"},
+            .exit_codes = "0 no bad finding, 1 a bad finding, 2 invalid input or an output that "
+                          "cannot be written"});
 }
 
 hlc::doctor::ListenOptions listen_options(const Flags& flags) {
@@ -89,7 +92,7 @@ int main(int argc, char** argv) {
                "lab_doctor"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   std::atomic<bool> stop{false};
   bool is_good = true;
   const int code = hlc::apps::exit_code_of("lab_doctor", [&] {

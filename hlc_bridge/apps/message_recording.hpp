@@ -10,7 +10,7 @@
 
 namespace hlc::apps {
 
-/// The recorder of a process of a run, if its flags ask for one (--messages).
+/// The recorder of a process of a run, if its flags ask for one (--messages_folder).
 class MessageRecording {
  public:
   using OnPublished = std::function<void(const dds::PublishedMessage&)>;

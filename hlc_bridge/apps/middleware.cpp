@@ -44,9 +44,12 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   app.add_flag("--keep_running", flags.keep_running,
                "wait for the next experiment after a stop (real time)");
-  app.footer(
-      "Exit codes: 0 success, 1 success, but --messages is incomplete, 2 invalid input, 3 startup "
-      "timeout, 4 the lab control died.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"middleware --vehicle_ids 1 --dds_domain 40 --middleware_domain 41 "
+                         "--transport loopback",
+                         "middleware --vehicle_ids 1,2 --simulated_time true --log_level warning"},
+            .exit_codes = "0 success, 1 success, but --messages_folder is incomplete, 2 invalid "
+                          "input, 3 startup timeout, 4 the lab control died"});
 }
 
 hlc::process::MiddlewareOptions process_options(const Flags& flags) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "planner/apps/scenario_name.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 
@@ -47,8 +48,7 @@ inline std::filesystem::path scenario_file(const std::filesystem::path& flag,
                                            const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   const auto found = [&folder](const fs::path& name) {
-    if (fs::is_regular_file(name) || name.has_extension()) return name;
-    return folder / "scenarios" / (name.string() + ".yaml");
+    return scenario_named(name.string(), folder / "scenarios");
   };
   const auto checked = [](const std::string& source, const std::string& name, fs::path file) {
     if (fs::is_regular_file(file)) return file;

@@ -129,25 +129,27 @@ int main(int argc, char** argv) {
   CLI::App app{"Result of a run: table, summary.json, steps.csv, timing.csv, run.html, run.mcap.",
                "summarize"};
   Choices choices;
-  app.add_option("--run", choices.run, "run folder")->required();
+  hlc::apps::declare_run(app, choices.run);
   hlc::apps::declare_scenario_flags(app, choices.given.scenario);
   app.get_option("--scenario")
       ->required(false)
       ->description(
-          "scenario file (YAML); this and the following are for a run without "
-          "configuration/flags.yaml; of other runs they must be the run's own");
+          "file (YAML), or the name of one of launch_scripts/scenarios; this and the following are "
+          "for a run without configuration/flags.yaml (default: from there), with it they must be "
+          "the run's own");
   app.add_option("--page", choices.page, "false: no run.html")->capture_default_str();
   app.add_option("--noise_seed", choices.given.noise_seed,
                  "of the run's measurement noise; default: no noise")
       ->check(hlc::apps::whole(0, std::numeric_limits<std::uint64_t>::max()));
-  app.footer(
-      "Exit codes: 0 success, 2 invalid input or an output that cannot be written, 5 driven, but a "
-      "vehicle left its plan or touched another one, 6 driven, but a vehicle was stuck at the "
-      "end.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) {
+  hlc::apps::declare_help_end(
+      app, {.examples = {"summarize runs/my_run",
+                         "summarize --run runs/by_hand --scenario paper_red_alone --page false"},
+            .exit_codes = "0 success, 2 invalid input or an output that cannot be written, 5 "
+                          "driven, but a vehicle left its plan or touched another one, 6 driven, "
+                          "but a vehicle was stuck at the end"});
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) {
     return *code;
   }
   if (app.count("--profile") == 0) choices.given.scenario.profile.clear();
-  return hlc::apps::exit_code_of(
-      "summarize", [&] { return summarize_run(choices); }, hlc::kExitBadInput);
+  return hlc::apps::exit_code_of("summarize", [&] { return summarize_run(choices); });
 }

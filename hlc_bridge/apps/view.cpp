@@ -53,7 +53,7 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::apps::vehicle_id_range());
   app.add_option("--logs", flags.logs,
                  fmt::format("folder in which the processes write their logs (*.log): the page "
-                             "shows their first {} lines",
+                             "shows their first {} lines; default: none",
                              hlc::record::kMostLoggedLines))
       ->check(CLI::ExistingDirectory);
   hlc::apps::declare_scenario_flags(app, flags.scenario);
@@ -64,10 +64,13 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option("--controller_domain", flags.controller_domain,
                  "domain of the controllers; default: lab domain + 50");
   hlc::apps::declare_controller_peers(app, flags.controller_peers);
-  app.footer(
-      "Foxglove connects to the same address by its websocket protocol. Publishes nothing: the run "
-      "is the same with it. Ends with the run. Exit codes: 0 success, 2 "
-      "invalid input or no port, 4 failed.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"view --scenario paper_three_cars --dds_domain 40 --transport loopback",
+                         "view --scenario lab_three_cars --port 8400 --listen 192.168.1.10 --logs "
+                         "runs/my_run/logs"},
+            .exit_codes = "0 success, 2 invalid input or no port, 4 failed",
+            .notes = "Foxglove connects to the same address by its websocket protocol. Publishes "
+                     "nothing: the run is the same with it. Ends with the run."});
 }
 
 /// Vehicles that the scenario does not name drive on a route that they choose themselves.
@@ -202,7 +205,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Shows a run under way in browsers: prints the page's address.", "view"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitDied)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   return hlc::apps::run_program(
       "view", signals, [&] { return std::make_shared<View>(flags, begin_of_run(flags)); },
       [](View& view) { view.stop(); });

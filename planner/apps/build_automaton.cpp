@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/apps/maneuver_table.hpp"
 #include "planner/apps/output_files.hpp"
 #include "planner/apps/parallel.hpp"
@@ -47,6 +48,8 @@ hlc::automaton::UniversalAutomaton built(
   const std::vector<hlc::maneuver_design::DesignTask> tasks =
       hlc::maneuver_design::design_tasks(configuration);
   std::vector<hlc::automaton::Maneuver> maneuvers(tasks.size());
+  const hlc::apps::Interruption interruption(
+      "build_automaton", "nothing is written yet: the same command begins from the start");
   const hlc::apps::ProgressLine progress("maneuver", tasks.size());
   hlc::apps::run_parallel(
       tasks.size(), jobs,
@@ -112,7 +115,9 @@ int main(int argc, char** argv) {
                "build_automaton"};
   Choices choices;
   choices.jobs = std::max(1U, std::thread::hardware_concurrency());
-  app.add_option("CONFIG", choices.configuration, "configuration (YAML)")->required();
+  app.add_option("CONFIGURATION", choices.configuration, "automaton configuration (YAML)")
+      ->required()
+      ->type_name("FILE");
   hlc::apps::declare_output(app, choices.out, "automaton file to write (YAML)")->required();
   hlc::apps::declare_output(app, choices.table, "write a table of all maneuvers (CSV)");
   hlc::apps::declare_output(app, choices.plot, "draw trims and maneuvers (SVG, PDF)");
@@ -122,9 +127,14 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", choices.jobs, "maneuvers designed at a time")
       ->check(hlc::apps::whole(1, 256))
       ->capture_default_str();
-  app.footer(
-      "Exit codes: 0 success, 1 an output cannot be written, 2 invalid input, 3 all but the "
-      "drawing.");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples =
+           {"build_automaton launch_scripts/automata/paper.yaml --out /tmp/paper_automaton.yaml",
+            "build_automaton my_car.yaml --out my_automaton.yaml --table maneuvers.csv --plot "
+            "maneuvers.svg"},
+       .exit_codes = "0 success, 2 invalid input or an output that cannot be written, 3 all but "
+                     "the drawing, 130 interrupted"});
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   return hlc::apps::exit_code_of("build_automaton", [&choices] { return run(choices); });
 }

@@ -195,19 +195,27 @@ int main(int argc, char** argv) {
   std::filesystem::path drive;
   std::filesystem::path configuration;
   std::size_t count = 12;
-  app.add_option("drive", drive,
+  app.add_option("DRIVE", drive,
                  "CSV with columns speed_mps and steering_rad, or with poses: t_ns or t_s, x_m, "
                  "y_m, yaw_rad or heading_rad (such as vehicle_1.csv of a run)")
-      ->required();
+      ->required()
+      ->type_name("FILE");
   app.add_option("--count", count, "number of trims, standstill included")
       ->capture_default_str()
       ->check(hlc::apps::whole(2, 200));
   app.add_option(
-      "--config", configuration,
-      "file with the keys `vehicle` and `limits` of an automaton configuration; default: the "
-      "uCar");
-  app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+         "--configuration", configuration,
+         "automaton configuration (YAML), of which the keys `vehicle` and `limits` are read; "
+         "default: the uCar")
+      ->type_name("FILE");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"choose_trims runs/my_run/vehicle_1.csv --count 8",
+                         "choose_trims drive.csv --configuration "
+                         "launch_scripts/automata/passenger_car.yaml > trims.yaml"}});
+  if (const auto code =
+          hlc::apps::parse_flags(app, argc, argv, {{"--config", "--configuration"}})) {
+    return *code;
+  }
   return hlc::apps::exit_code_of("choose_trims", [&] {
     const Car car = configuration.empty() ? Car{} : read_car(configuration);
     const std::vector<hlc::maneuver_design::DriveSample> samples = [&] {

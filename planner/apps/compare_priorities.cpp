@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/apps/priority_files.hpp"
 #include "planner/apps/progress_line.hpp"
 #include "planner/apps/result_folder.hpp"
@@ -25,7 +26,6 @@ namespace {
 
 using hlc::rollout::PriorityTrial;
 
-constexpr int kExitFailed = 3;
 constexpr double kMillisecondsPerSecond = 1e3;
 constexpr double kPercent = 100.0;
 
@@ -47,11 +47,11 @@ struct Cell {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("scenario,--scenario", flags.scenario.file, "scenario file (YAML)")->required();
+  hlc::apps::declare_scenario(app, "SCENARIO,--scenario", flags.scenario.file)->required();
   app.add_option("--cars", flags.cars, "numbers of cars, N,N,...; default: the scenario's")
       ->delimiter(',')
       ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
-  app.add_option("--strategies", flags.strategies,
+  app.add_option("--priorities", flags.strategies,
                  "NAME,NAME,... (default: all that suit the coordination): " +
                      hlc::scenario::priority_strategies_text())
       ->delimiter(',')
@@ -70,13 +70,17 @@ void declare(CLI::App& app, Flags& flags) {
       "--out", flags.out,
       "folder for the rows of all runs, steps and joint gaps (runs.csv, steps.csv, gaps.csv, "
       "campaign.json); existing files of these names are replaced");
+  out->type_name("DIR");
   app.add_flag("--report", flags.makes_report,
                "also makes the page OUT/report.md from the rows: tables and figures "
                "(vehicle_sim/report; its Python packages are installed once)")
       ->needs(out);
-  app.footer(
-      "Exit codes: 0 success, 2 invalid input, 3 the rows, the report or the printed output cannot "
-      "be written.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"compare_priorities lab_cars --cars 5,10,15,20 --steps 35",
+                         "compare_priorities lab_cars --priorities constant,fca --draws 5 --out "
+                         "runs/priorities --report"},
+            .exit_codes = "0 success, 2 invalid input or an output that cannot be written, 3 all "
+                          "but the report, 130 interrupted"});
 }
 
 /// Processor time: what else the machine does is not measured.
@@ -210,7 +214,7 @@ void choose_strategies(Flags& flags, const hlc::scenario::Scenario& scenario) {
   if (flags.strategies.empty()) flags.strategies = suitable;
   for (const std::string& name : flags.strategies) {
     if (std::ranges::find(suitable, name) != suitable.end()) continue;
-    throw std::invalid_argument(fmt::format("--strategies = {}, must be of {} {}", name,
+    throw std::invalid_argument(fmt::format("--priorities = {}, must be of {} {}", name,
                                             fmt::join(suitable, ", "), hlc::scenario::kWithVotes));
   }
 }
@@ -250,12 +254,11 @@ void write(const Flags& flags, const std::string& command, const hlc::scenario::
     }
   }
   hlc::apps::write_priority_files(flags.out, hlc::apps::origin_of(command), scenario, plan, runs);
-  if (flags.makes_report) hlc::apps::make_report(flags.out);
 }
 
 int run(Flags flags, const std::string& command) {
   hlc::apps::check_each_once("--cars", flags.cars);
-  hlc::apps::check_each_once("--strategies", flags.strategies);
+  hlc::apps::check_each_once("--priorities", flags.strategies);
   if (flags.cars.empty()) flags.cars = {0};
   std::vector<hlc::scenario::Scenario> scenarios;  // all, before anything is driven
   for (const std::size_t cars : flags.cars) scenarios.push_back(read(flags, cars));
@@ -263,6 +266,9 @@ int run(Flags flags, const std::string& command) {
   choose_strategies(flags, any);
   if (!flags.out.empty()) hlc::apps::prepare_priority_folder(flags.out);
   const std::vector<std::size_t> draws = draws_of(flags, any);
+  const hlc::apps::Interruption interruption(
+      "compare_priorities",
+      "no rows are written yet: the same command begins from the start, --draws shortens it");
   const hlc::apps::ProgressLine progress(
       "run", flags.cars.size() * flags.strategies.size() * draws.size());
   std::vector<Cell> cells;
@@ -291,8 +297,12 @@ int main(int argc, char** argv) {
       "compare_priorities"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::apps::exit_code_of(
-      "compare_priorities", [&] { return run(flags, hlc::apps::command_line(argc, argv)); },
-      kExitFailed);
+  if (const auto code =
+          hlc::apps::parse_flags(app, argc, argv, {{"--strategies", "--priorities"}})) {
+    return *code;
+  }
+  const int code = hlc::apps::exit_code_of(
+      "compare_priorities", [&] { return run(flags, hlc::apps::command_line(argc, argv)); });
+  if (code != 0 || !flags.makes_report) return code;
+  return hlc::apps::make_report("compare_priorities", flags.out) ? 0 : hlc::apps::kExitNoReport;
 }

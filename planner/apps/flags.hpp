@@ -21,6 +21,9 @@
 #include <vector>
 
 #include "planner/apps/cli.hpp"
+#include "planner/apps/former_names.hpp"
+#include "planner/apps/help.hpp"
+#include "planner/apps/scenario_name.hpp"
 #include "planner/common/program_version.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
@@ -29,7 +32,9 @@
 #include "planner/scenario/scenario.hpp"
 
 /// Common to the command lines of all programs: `--name=value` and `--name value`, `--help` and
-/// `--version`, unknown flags refused, one line and exit code 2 for bad ones.
+/// `--version`, unknown flags refused, one line and exit code 2 for bad ones. What the help of
+/// every program and script must hold, and which names mean the same everywhere, is tested by
+/// tests/house/command_lines_test.cpp.
 namespace hlc::apps {
 
 /// Prints an error in one line, even if names of files and keys in it contain line breaks.
@@ -145,15 +150,19 @@ inline int refuse_unknown(const CLI::App& app, const CLI::ExtrasError& error) {
 }
 
 /// Nothing if the flags are good; otherwise the exit code: 0 after the help or the version, 2 after
-/// one line about the bad flag, `failed`, as in exit_code_of, after one line about a help that
-/// could not be printed.
-inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int failed = 1) {
+/// one line about the bad flag, or about a help that could not be printed.
+/// @param former  names of flags up to the last release
+inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv,
+                                      const std::vector<FormerName>& former = {}) {
   check_types(app);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag(
       "--version", app.get_name() + " " + program_release() + ", revision " + program_revision(),
       "Print the version and the revision of the sources, and exit");
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> arguments = with_present_names(app.get_name(), argc, argv, former);
+    std::ranges::reverse(arguments);  // as CLI11 wants them
+    app.parse(arguments);
     return std::nullopt;
   } catch (const CLI::Success& help) {
     const int code = app.exit(help);
@@ -162,7 +171,7 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int 
       return code;
     } catch (const std::runtime_error& error) {
       complain(app.get_name(), error.what());
-      return failed;
+      return 2;
     }
   } catch (const CLI::ExtrasError& error) {
     return refuse_unknown(app, error);
@@ -177,9 +186,9 @@ inline std::optional<int> parse_flags(CLI::App& app, int argc, char** argv, int 
 
 /// Runs the program's work, which returns nothing or an exit code. Returns that code, or 0, if the
 /// work succeeds and all its output is written; 2 after one line about invalid input
-/// (std::invalid_argument), `failed` after one line about any other error.
+/// (std::invalid_argument) or any other error: an output that cannot be written.
 template <class Work>
-int exit_code_of(const char* program, Work work, int failed = 1) {
+int exit_code_of(const char* program, Work work) {
   try {
     int code = 0;
     if constexpr (std::is_void_v<decltype(work())>) {
@@ -189,12 +198,9 @@ int exit_code_of(const char* program, Work work, int failed = 1) {
     }
     flush_standard_output();
     return code;
-  } catch (const std::invalid_argument& error) {
-    complain(program, error.what());
-    return 2;
   } catch (const std::exception& error) {
     complain(program, error.what());
-    return failed;
+    return 2;
   }
 }
 
@@ -215,9 +221,22 @@ CLI::Option* declare_profile_flag(CLI::App& app, Profiles& profiles) {
       ->capture_default_str();
 }
 
+/// Also as a positional, "SCENARIO,--scenario".
+/// @param more  behind what the flag is
+inline CLI::Option* declare_scenario(CLI::App& app, const std::string& name,
+                                     std::filesystem::path& file, const std::string& more = "") {
+  return takes_scenario(app.add_option(
+      name, file, "file (YAML), or the name of one of launch_scripts/scenarios" + more));
+}
+
+/// The run folder, with the flag or without.
+inline void declare_run(CLI::App& app, std::filesystem::path& run) {
+  app.add_option("RUN,--run", run, "run folder")->required()->type_name("DIR");
+}
+
 /// The flags that choose a scenario.
 inline void declare_scenario_flags(CLI::App& app, scenario::ScenarioChoices& choices) {
-  app.add_option("--scenario", choices.file, "scenario file (YAML)")->required();
+  declare_scenario(app, "--scenario", choices.file)->required();
   declare_profile_flag(app, choices.profile);
   app.add_option("--engine", choices.engine,
                  "search engine: " + scenario::engine_choices() +
@@ -230,11 +249,14 @@ inline void declare_scenario_flags(CLI::App& app, scenario::ScenarioChoices& cho
   app.add_option("--policy", choices.policy,
                  "by which the controllers change the subgraph themselves, or none (default: the "
                  "scenario's)");
-  app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's");
+  app.add_option("--map", choices.map_file, "CommonRoad XML instead of the scenario's")
+      ->type_name("FILE");
   app.add_option("--cars", choices.cars,
-                 "number of cars (scenarios on a circle, or that draw their cars)")
+                 "number of cars (scenarios on a circle, or that draw their cars), instead of the "
+                 "scenario's")
       ->check(whole(1, kMaxVehicleId));
-  app.add_option("--seed", choices.seed, "of drawn cars and random routes")
+  app.add_option("--seed", choices.seed,
+                 "of drawn cars and random routes (default: the scenario's)")
       ->check(whole(0, scenario::kMaxSeed));
   app.add_option("--routes", choices.routes,
                  "random: every car takes random turns forever, instead of the scenario's routes")

@@ -1,4 +1,4 @@
-// Writes the maps that the project ships, launch_scripts/maps/NAME.xml: generate_map --map NAME;
+// Writes the maps that the project ships, launch_scripts/maps/NAME.xml: generate_map --shape NAME;
 // and towns: generate_map --blocks WxH
 
 #include <iostream>
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   hlc::apps::OutputFile out{"--out", {}};
   CLI::Option* map =
       app.add_option(
-             "--map", name,
+             "--shape", name,
              "lab_like: three circuits, which are printed; lab_network: the lab's whole road "
              "network with its lanelet numbers")
           ->check(hlc::apps::among({kLabLike, kLabNetwork}))
@@ -64,12 +64,15 @@ int main(int argc, char** argv) {
   const std::string allowed = fmt::format("WxH, each in 1 ... {}", hlc::road::Blocks::kMost);
   app.add_option("--blocks", blocks,
                  "a town instead: W crossings from west to east, H from south to north, with the "
-                 "roads between and around them")
+                 "roads between and around them; default: none")
       ->check(hlc::apps::allowing(
           [](const std::string& text) { return blocks_of(text).has_value(); }, allowed, allowed))
       ->excludes(map);
   hlc::apps::declare_output(app, out, "file to write (XML)")->required();
-  app.footer("Exit codes: 0 success, 1 an output cannot be written, 2 invalid input.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  hlc::apps::declare_help_end(app, {.examples = {"generate_map --out lab_like.xml",
+                                                 "generate_map --blocks 8x6 --out town.xml"}});
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, {{"--map", "--shape"}})) {
+    return *code;
+  }
   return hlc::apps::exit_code_of("generate_map", [&] { run(name, blocks, out); });
 }

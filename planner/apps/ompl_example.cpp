@@ -26,7 +26,9 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/apps/output_files.hpp"
+#include "planner/apps/progress_line.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/geometry/median.hpp"
@@ -54,7 +56,6 @@ extern "C" const char* __lsan_default_suppressions() {
 
 namespace {
 
-constexpr int kExitFailed = 2;
 constexpr char kCost[] = "path cost REAL";
 constexpr char kIsOptimal[] = "optimal BOOLEAN";
 constexpr char kShipped[] = "launch_scripts/problems/parked_car.json";
@@ -72,13 +73,14 @@ struct Flags {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("file", flags.file,
+  app.add_option("PROBLEM", flags.file,
                  std::string("planning problem (JSON, see plan_problem), for example ") + kShipped)
-      ->required();
-  app.add_option("--seconds", flags.seconds, "that each planner has per run")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--time_s", flags.seconds, "that each planner has per run")
       ->check(hlc::apps::within(0.001, 3600.0))
       ->capture_default_str();
-  app.add_option("--runs", flags.runs, "of each planner")
+  app.add_option("--runs", flags.runs, "number of runs of each planner")
       ->check(hlc::apps::whole(1, 10000))
       ->capture_default_str();
   app.add_option("--radius_m", flags.radius_m,
@@ -91,12 +93,16 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   hlc::apps::declare_output(
       app, flags.log, "write the benchmark's log there, for OMPL's ompl_benchmark_statistics.py");
-  app.footer(
-      "Of the file's `search`, max_expansions holds for this planner, which is run with each of "
-      "its "
-      "engines, and cost_to_go for best_first; criterion_weights are refused: the planners are "
-      "compared by the distance from the reference alone.\n\n"
-      "Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples = {"ompl_example launch_scripts/problems/parked_car.json",
+                    "ompl_example launch_scripts/problems/parked_car.json --time_s 1 --runs 20 "
+                    "--log ompl.log"},
+       .exit_codes =
+           "0 success, 2 invalid input or an output that cannot be written, 130 interrupted",
+       .notes = "Of the file's `search`, max_expansions holds for this planner, which is run with "
+                "each of its engines, and cost_to_go for best_first; criterion_weights are "
+                "refused: the planners are compared by the distance from the reference alone."});
 }
 
 /// KPIECE covers this plane with cells.
@@ -293,7 +299,12 @@ int run(const Flags& flags) {
   ot::Benchmark benchmark(setup, "receding horizon");
   const std::vector<ob::PlannerPtr> planners = make_planners(si, file, reachable);
   for (const ob::PlannerPtr& planner : planners) benchmark.addPlanner(planner);
-  benchmark.setPostRunEvent([](const ob::PlannerPtr& planner, ot::Benchmark::RunProperties& run) {
+  const hlc::apps::Interruption interruption(
+      "ompl_example", "no log is written yet: the same command begins from the start");
+  const hlc::apps::ProgressLine progress("run", planners.size() * flags.runs);
+  std::size_t done = 0;
+  benchmark.setPostRunEvent([&](const ob::PlannerPtr& planner, ot::Benchmark::RunProperties& run) {
+    progress.show(++done);
     const ob::ProblemDefinitionPtr& definition = planner->getProblemDefinition();
     if (!definition->hasExactSolution()) return;
     const auto& path = dynamic_cast<const oc::PathControl&>(*definition->getSolutionPath());
@@ -330,7 +341,8 @@ int main(int argc, char** argv) {
                "ompl_example"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::apps::exit_code_of(
-      "ompl_example", [&flags] { return run(flags); }, kExitFailed);
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, {{"--seconds", "--time_s"}})) {
+    return *code;
+  }
+  return hlc::apps::exit_code_of("ompl_example", [&flags] { return run(flags); });
 }

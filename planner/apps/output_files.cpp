@@ -45,8 +45,10 @@ std::string objection_to(const fs::path& file) {
 }  // namespace
 
 CLI::Option* declare_output(CLI::App& app, OutputFile& output, const std::string& help) {
-  return app.add_option_function<std::string>(
-      output.flag, [&output](const std::string& file) { output.file = file; }, help);
+  return app
+      .add_option_function<std::string>(
+          output.flag, [&output](const std::string& file) { output.file = file; }, help)
+      ->type_name("FILE");
 }
 
 void check_output_files(const std::vector<OutputFile>& outputs,

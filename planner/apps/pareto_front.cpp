@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/apps/output_files.hpp"
 #include "planner/apps/pareto_table.hpp"
+#include "planner/apps/progress_line.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
@@ -43,8 +45,9 @@ constexpr double kShortest_s = 1e-3;
 constexpr double kLongest_s = 100.0;
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("configuration", flags.configuration, "automaton configuration (YAML)")
-      ->required();
+  app.add_option("CONFIGURATION", flags.configuration, "automaton configuration (YAML)")
+      ->required()
+      ->type_name("FILE");
   app.add_option("--from", flags.from, "speed [m/s] and steering [rad] at the start")
       ->expected(2)
       ->check(hlc::apps::finite())
@@ -53,20 +56,23 @@ void declare(CLI::App& app, Flags& flags) {
       ->expected(2)
       ->check(hlc::apps::finite())
       ->required();
-  app.add_option("--points", flags.points, "of the front")
+  app.add_option("--points", flags.points, "number of points of the front")
       ->check(hlc::apps::whole(2, 1000))
       ->capture_default_str();
   CLI::Option* const duration =
-      app.add_option("--duration", flags.duration_s, "[s], instead of the configuration's step_s")
+      app.add_option("--duration_s", flags.duration_s,
+                     "of every maneuver [s], instead of the configuration's step_s")
           ->check(hlc::apps::within(kShortest_s, kLongest_s));
-  app.add_option("--free_duration", flags.free_duration_s,
-                 "MIN MAX [s]: each maneuver has its own best duration within these bounds, for "
-                 "criteria such as travel_time; the table has a column `duration` then")
+  app.add_option(
+         "--free_duration_s", flags.free_duration_s,
+         "MIN MAX [s]: each maneuver has its own best duration within these bounds, for "
+         "criteria such as travel_time; the table has a column `duration` then; default: as "
+         "--duration_s")
       ->expected(2)
       ->check(hlc::apps::within(kShortest_s, kLongest_s))
       ->excludes(duration);
   app.add_option("--intervals", flags.intervals,
-                 "of constant input, instead of the configuration's")
+                 "intervals of constant input, instead of the configuration's")
       ->check(hlc::apps::whole(2, 1000));
   app.add_option("--criteria", flags.criteria,
                  "two criteria; the first is minimised, the second "
@@ -80,9 +86,14 @@ void declare(CLI::App& app, Flags& flags) {
       ->capture_default_str();
   hlc::apps::declare_output(app, flags.table, "table to write (CSV)")->required();
   hlc::apps::declare_output(app, flags.plot, "plot to write (SVG, PDF)");
-  app.footer(
-      "Exit codes: 0 success, 1 a point was not found or an output cannot be written, 2 invalid "
-      "input, 3 all but the drawing.");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples =
+           {"pareto_front launch_scripts/automata/paper.yaml --from 0 0 --to 0.7 0 --out front.csv",
+            "pareto_front launch_scripts/automata/paper.yaml --from 0.7 0 --to 0 0 --criteria J1 "
+            "energy --points 60 --out front.csv --plot front.svg"},
+       .exit_codes = "0 success, 1 a point was not found, 2 invalid input or an output that cannot "
+                     "be written, 3 all but the drawing, 130 interrupted"});
 }
 
 std::string printed(const std::vector<double>& numbers) {
@@ -106,7 +117,8 @@ void check_trim(const char* flag, const std::vector<double>& trim,
 void free_duration(const std::vector<double>& bounds_s,
                    hlc::maneuver_design::ManeuverProblem& problem) {
   if (bounds_s[0] > bounds_s[1]) {
-    throw std::invalid_argument("--free_duration = " + printed(bounds_s) + ", must be MIN <= MAX");
+    throw std::invalid_argument("--free_duration_s = " + printed(bounds_s) +
+                                ", must be MIN <= MAX");
   }
   problem.free_duration = {bounds_s[0], bounds_s[1]};
   problem.duration_s = std::clamp(problem.duration_s, bounds_s[0], bounds_s[1]);
@@ -171,17 +183,19 @@ int run(const Flags& flags) {
   options.points = flags.points;
   options.spacing = flags.spacing == "front" ? hlc::maneuver_design::Spacing::kAlongFront
                                              : hlc::maneuver_design::Spacing::kSecondCriterion;
-  const bool is_watched = isatty(STDERR_FILENO) != 0;
-  if (is_watched) {
-    options.progress = [](std::size_t done, std::size_t of) {
-      std::fprintf(stderr, "\r%zu of at most %zu maneuvers  ", done, of);
-    };
-  }
+  const hlc::apps::Interruption interruption(
+      "pareto_front", "nothing is written yet: the same command begins from the start");
+  std::optional<hlc::apps::ProgressLine> progress;
+  options.progress = [&progress](std::size_t done, std::size_t at_most) {
+    if (!progress) progress.emplace("maneuver", at_most);
+    if (done > 0) progress->show(done);
+  };
   const hlc::maneuver_design::ParetoFront front =
       hlc::maneuver_design::epsilon_constraint_front(problem, options);
+  progress.reset();
   const hlc::maneuver_design::ParetoFront weighted_sums =
       hlc::maneuver_design::weighted_sum_front(problem, options);
-  if (is_watched) std::fprintf(stderr, "\n");
+  progress.reset();
   if (front.status == hlc::maneuver_design::ManeuverStatus::kInfeasible) {
     throw std::invalid_argument(flags.configuration + ": " + front.reason);
   }
@@ -206,6 +220,10 @@ int main(int argc, char** argv) {
                "pareto_front"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  if (const auto code = hlc::apps::parse_flags(
+          app, argc, argv,
+          {{"--duration", "--duration_s"}, {"--free_duration", "--free_duration_s"}})) {
+    return *code;
+  }
   return hlc::apps::exit_code_of("pareto_front", [&flags] { return run(flags); });
 }

@@ -32,7 +32,6 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kExitFallback = 1;
-constexpr int kExitFailed = 2;
 constexpr char kTreeEngine[] = "best_first";
 /// The shortest of several calls is reported: the first one also allocates and fills caches.
 constexpr int kMaxCalls = 20;
@@ -56,15 +55,20 @@ struct Solved {
 
 void declare(CLI::App& app, Flags& flags) {
   app.add_option(
-         "file", flags.file,
-         "planning problem (JSON), as high_level_controller --dump-problems writes it, or a "
-         "joint one of several vehicles, as price_of_priority --dump does")
-      ->required();
-  app.add_option("--automaton", flags.automaton, "instead of the file that the problem names");
+         "PROBLEM", flags.file,
+         "planning problem (JSON), as high_level_controller --dump_problems writes it, or a "
+         "joint one of several vehicles, as price_of_priority --dump_problems does")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--automaton", flags.automaton,
+                 "automaton file, instead of the one that the problem names")
+      ->type_name("FILE");
   app.add_option("--engine", flags.engine,
-                 hlc::scenario::engine_choices() + " (default: the file's, else branch_and_bound)");
-  app.add_option("--cost_to_go", flags.cost_to_go,
-                 "reachable, straight_line or 2022; the last two with best_first");
+                 "search engine: " + hlc::scenario::engine_choices() +
+                     " (default: the file's, else branch_and_bound)");
+  app.add_option(
+      "--cost_to_go", flags.cost_to_go,
+      "reachable, straight_line or 2022; the last two with best_first (default: the file's)");
   app.add_option(
          "--max_expansions", flags.max_expansions,
          "budget, at least 1; of a joint problem: of all searches together (default 20000000)")
@@ -81,9 +85,12 @@ void declare(CLI::App& app, Flags& flags) {
       "write what was searched: FILE.html, a page with the search tree, what ruled out the other "
       "plans, and the runner-up; FILE.json, the same for other programs. Searches with best_first, "
       "also if the problem names another engine; cost-to-go reachable or straight_line");
-  app.footer(
-      "Exit codes: 0 there is a plan, 1 there is none (fallback), 2 invalid input or an output "
-      "that cannot be written, 3 the plan is not drawn.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"plan_problem launch_scripts/problems/parked_car.json --plot plan.svg",
+                         "plan_problem launch_scripts/problems/parked_car.json --engine best_first "
+                         "--tree tree.html"},
+            .exit_codes = "0 there is a plan, 1 there is none (fallback), 2 invalid input or an "
+                          "output that cannot be written, 3 the plan is not drawn"});
 }
 
 /// Only the plain engine records its search.
@@ -267,7 +274,6 @@ int main(int argc, char** argv) {
                "plan_problem"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::apps::exit_code_of(
-      "plan_problem", [&flags] { return run(flags); }, kExitFailed);
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("plan_problem", [&flags] { return run(flags); });
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/apps/output_files.hpp"
 #include "planner/apps/progress_line.hpp"
 #include "planner/common/csv.hpp"
@@ -29,7 +30,6 @@ using hlc::joint_search::JointPlan;
 using hlc::joint_search::JointProblem;
 using hlc::joint_search::JointSearchResult;
 
-constexpr int kExitFailed = 2;
 constexpr double kSameCost = 1e-6;
 /// The budget of a single vehicle's search: large, so that its result is its optimum.
 constexpr std::size_t kVehicleExpansions = 1'000'000;
@@ -41,7 +41,7 @@ struct Flags {
   std::uint64_t seed{1};
   std::size_t max_expansions{5'000'000};
   std::vector<std::size_t> budgets{1'000, 10'000};
-  hlc::apps::OutputFile rows{"--rows", {}};
+  hlc::apps::OutputFile rows{"--table", {}};
   std::optional<std::filesystem::path> dump;
 };
 
@@ -66,10 +66,10 @@ struct Totals {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("scenario,--scenario", flags.scenario.file,
-                 "scenario file (YAML), on whose routes the cars are drawn")
+  hlc::apps::declare_scenario(app, "SCENARIO,--scenario", flags.scenario.file,
+                              ", on whose routes the cars are drawn")
       ->required();
-  app.add_option("--cars", flags.cars, "in each problem")
+  app.add_option("--cars", flags.cars, "number of cars in each problem")
       ->check(hlc::apps::whole(2, 4))
       ->capture_default_str();
   app.add_option("--problems", flags.problems, "number of problems with a conflict")
@@ -79,12 +79,12 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::apps::whole(0, hlc::scenario::kMaxSeed))
       ->capture_default_str();
   app.add_option("--max_expansions", flags.max_expansions,
-                 "of the search for the joint optimum, in each problem")
+                 "most expansions of the search for the joint optimum, in each problem")
       ->check(hlc::apps::whole(1, hlc::search::SearchOptions::kMostExpansions))
       ->capture_default_str();
   app.add_option("--budgets", flags.budgets,
                  "rules that start from the best order and search jointly for so many "
-                 "expansions: N,N,...")
+                 "expansions: N,N,...; default: none")
       ->delimiter(',')
       ->check(hlc::apps::whole(1, hlc::search::SearchOptions::kMostExpansions));
   hlc::apps::declare_profile_flag(app, flags.scenario.profile);
@@ -92,10 +92,16 @@ void declare(CLI::App& app, Flags& flags) {
   hlc::apps::declare_output(app, flags.rows,
                             "write a row per problem and rule (CSV): problem, rule, cost [m^2], "
                             "optimum [m^2], is_proven");
-  app.add_option("--dump", flags.dump,
+  app.add_option("--dump_problems", flags.dump,
                  "a new or an empty folder: write each problem to a file there (plan_problem "
-                 "solves it)");
-  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
+                 "solves it)")
+      ->type_name("DIR");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"price_of_priority paper_three_cars --cars 3",
+                         "price_of_priority lab_cars --problems 200 --table prices.csv "
+                         "--dump_problems problems"},
+            .exit_codes =
+                "0 success, 2 invalid input or an output that cannot be written, 130 interrupted"});
 }
 
 std::vector<Rule> rules_of(const Flags& flags) {
@@ -185,7 +191,7 @@ void check_dump(const std::optional<std::filesystem::path>& folder) {
   std::filesystem::create_directory(*folder, error);
   if (!std::filesystem::is_directory(*folder) || !std::filesystem::is_empty(*folder)) {
     throw std::invalid_argument(
-        fmt::format("--dump = {}, must be a new or an empty folder", folder->string()));
+        fmt::format("--dump_problems = {}, must be a new or an empty folder", folder->string()));
   }
 }
 
@@ -278,6 +284,9 @@ int run(const Flags& flags) {
   search.max_expansions = kVehicleExpansions;
   hlc::rollout::JointDraws draws(scenario, search, flags.seed);
   Comparison comparison(flags);
+  const hlc::apps::Interruption interruption(
+      "price_of_priority",
+      "no table is written yet: the same command begins from the start, --problems shortens it");
   const hlc::apps::ProgressLine progress("problem", flags.problems);
   for (std::size_t number = 1; number <= flags.problems; ++number) {
     const std::optional<JointProblem> problem = draws.draw(flags.cars);
@@ -307,7 +316,9 @@ int main(int argc, char** argv) {
       "price_of_priority"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::apps::exit_code_of(
-      "price_of_priority", [&flags] { return run(flags); }, kExitFailed);
+  if (const auto code = hlc::apps::parse_flags(
+          app, argc, argv, {{"--dump", "--dump_problems"}, {"--rows", "--table"}})) {
+    return *code;
+  }
+  return hlc::apps::exit_code_of("price_of_priority", [&flags] { return run(flags); });
 }

@@ -3,16 +3,19 @@
 #include <fmt/chrono.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <string>
 #include <utility>
 
+#include "planner/apps/terminal.hpp"
+
 namespace hlc::apps {
 
-/// "what 13 of 64, 00:02:10 left" on stderr, updated in place and erased at the end; nothing if
-/// stderr is no terminal.
+/// "what 13 of 64, 00:02:10 left" on stderr, updated in place, cut off at the terminal's width and
+/// erased at the end; nothing if stderr is no terminal.
 class ProgressLine {
  public:
   ProgressLine(std::string what, std::size_t total)
@@ -30,7 +33,9 @@ class ProgressLine {
     const auto passed = std::chrono::steady_clock::now() - begin_;
     const auto left = std::chrono::duration_cast<std::chrono::seconds>(
         passed / static_cast<double>(done) * static_cast<double>(total_ - done));
-    fmt::print(stderr, "\r\033[K{} {} of {}, {:%T} left{}", what_, done, total_, left, more);
+    std::string text = fmt::format("{} {} of {}, {:%T} left{}", what_, done, total_, left, more);
+    text.resize(std::min(text.size(), columns_of(STDERR_FILENO) - 1));
+    fmt::print(stderr, "\r\033[K{}", text);
   }
 
  private:

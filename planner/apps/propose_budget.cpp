@@ -24,8 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kExitFailed = 2;
-
 /// Searches of fewer expansions do not show the time of one: most of their time is the preparation
 /// of the search, which they measure.
 constexpr std::size_t kInformative = 1000;
@@ -48,7 +46,7 @@ struct Measured {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("scenario,--scenario", flags.scenario.file, "scenario file (YAML)")->required();
+  hlc::apps::declare_scenario(app, "SCENARIO,--scenario", flags.scenario.file)->required();
   app.add_option("--deadline_ms", flags.deadline_ms, "that a plan may take")
       ->required()
       ->check(hlc::apps::within(0.001, 1e6));
@@ -57,14 +55,15 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(hlc::apps::within(1.0, 1000.0))
       ->capture_default_str();
   hlc::apps::declare_profile_flag(app, flags.scenario.profile);
-  app.add_option("--engine", flags.scenario.engine, "instead of the scenario's");
+  app.add_option("--engine", flags.scenario.engine, "search engine, instead of the scenario's");
   app.add_option("--subgraph", flags.scenario.subgraph, "instead of the scenario's");
   app.add_option("--steps", flags.scenario.steps, "that are looked at, instead of the scenario's")
       ->check(hlc::apps::whole(1, 100000));
-  app.footer(
-      "Exit codes: 0 success, 1 the deadline leaves no time to search, 2 invalid input or an "
-      "output that "
-      "cannot be written.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"propose_budget --scenario paper_three_cars --deadline_ms 100",
+                         "propose_budget lab_cars --deadline_ms 50 --safety 4"},
+            .exit_codes = "0 success, 1 the deadline leaves no time to search, 2 invalid input or "
+                          "an output that cannot be written"});
 }
 
 /// All problems that the scenario's controllers pose.
@@ -229,7 +228,6 @@ int main(int argc, char** argv) {
       "propose_budget"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::apps::exit_code_of(
-      "propose_budget", [&flags] { return run(flags); }, kExitFailed);
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("propose_budget", [&flags] { return run(flags); });
 }

@@ -2,9 +2,10 @@
 
 #include <unistd.h>
 
+#include <iostream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "planner/apps/scenario_name.hpp"
 #include "planner/common/processor_model.hpp"
 #include "planner/common/program_version.hpp"
 #include "planner/common/run_program.hpp"
@@ -38,17 +39,18 @@ std::string campaign_json(const std::string& kind, const EvaluationOrigin& origi
   return json.dump(1) + "\n";
 }
 
-void make_report(const std::filesystem::path& folder) {
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+bool make_report(const std::string& program, const std::filesystem::path& folder) {
   const std::filesystem::path script =
-      (program.parent_path() / "../../../vehicle_sim/report/report.sh").lexically_normal();
+      (program_folder() / "../../../vehicle_sim/report/report.sh").lexically_normal();
   if (::access(script.c_str(), X_OK) != 0) {
-    throw std::runtime_error(script.string() + ": not found, must be as in the source folder");
+    std::cerr << program << ": " << script.string()
+              << ": not found, must be as in the source folder\n";
+    return false;
   }
-  if (!run_program({script.string(), folder.string()})) {
-    throw std::runtime_error(
-        "the report was not made; the rows stay, and the same command goes on");
-  }
+  if (run_program({script.string(), folder.string()})) return true;
+  std::cerr << program
+            << ": the report was not made; the rows stay, and the same command goes on\n";
+  return false;
 }
 
 }  // namespace hlc::apps

@@ -25,10 +25,13 @@ struct EvaluationOrigin {
                                         const nlohmann::ordered_json& content);
 
 /// Makes the page report.md of the folder, by vehicle_sim/report/report.sh. Its messages go to this
-/// program's output and errors.
+/// program's output and errors. If it is not made, stderr has a line that begins with the program's
+/// name, and the rows stay.
 /// @param folder  with campaign.json and its rows
 /// @pre this program is build/PRESET/bin/NAME
-/// @throws std::runtime_error with one line if the script is not found or fails
-void make_report(const std::filesystem::path& folder);
+[[nodiscard]] bool make_report(const std::string& program, const std::filesystem::path& folder);
+
+/// Exit code of programs: all but the report is there.
+inline constexpr int kExitNoReport = 3;
 
 }  // namespace hlc::apps

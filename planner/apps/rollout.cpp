@@ -23,8 +23,6 @@
 
 namespace {
 
-constexpr int kExitFailed = 2;
-
 struct Choices {
   hlc::scenario::ScenarioChoices scenario;
   double lost{};                                                    ///< share of the messages
@@ -200,8 +198,9 @@ int main(int argc, char** argv) {
       ->needs(lost)
       ->check(hlc::apps::whole(0, 1'000'000'000'000))
       ->capture_default_str();
-  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::apps::exit_code_of(
-      "rollout", [&choices] { return run(choices); }, kExitFailed);
+  hlc::apps::declare_help_end(
+      app, {.examples = {"rollout --scenario paper_three_cars",
+                         "rollout --scenario lab_cars --cars 10 --steps 100 --lost 0.05"}});
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("rollout", [&choices] { return run(choices); });
 }

@@ -143,13 +143,19 @@ int main(int argc, char** argv) {
   CLI::App app{"Checks an automaton file and prints its content.", "show_automaton"};
   std::filesystem::path path;
   std::optional<std::filesystem::path> configuration;
-  app.add_option("AUTOMATON", path, "file written by build_automaton")->required();
-  app.add_option(
-      "--configuration", configuration,
-      "configuration that it must be built from (default: the one in the same folder, if any)");
-  app.footer(
-      "Exit codes: 0 success, 1 an output cannot be written, 2 invalid input, a stale or edited "
-      "file.");
+  app.add_option("AUTOMATON", path, "file written by build_automaton")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--configuration", configuration,
+                 "automaton configuration (YAML) that it must be built from (default: the one in "
+                 "the same folder, if any)")
+      ->type_name("FILE");
+  hlc::apps::declare_help_end(app,
+                              {.examples = {"show_automaton /tmp/paper_automaton.yaml",
+                                            "show_automaton /tmp/paper_automaton.yaml "
+                                            "--configuration launch_scripts/automata/paper.yaml"},
+                               .exit_codes = "0 success, 2 invalid input or an output that cannot "
+                                             "be written; a stale or edited file is invalid"});
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   return hlc::apps::exit_code_of("show_automaton", [&] {
     const AutomatonFile file = hlc::maneuver_design::read_current_automaton_file(path);

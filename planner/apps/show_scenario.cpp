@@ -1,5 +1,5 @@
-// Checks a scenario, prints its vehicles and starts (with --starts in a form for scripts) and draws
-// it.
+// Checks a scenario, prints its vehicles and starts (with --print_starts in a form for scripts) and
+// draws it.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -14,8 +14,6 @@
 #include "planner/scenario/scenario.hpp"
 
 namespace {
-
-constexpr int kExitFailed = 2;
 
 /// Of vehicles that have one of their own, and sections of their routes.
 void print_speeds(const hlc::scenario::Scenario& scenario) {
@@ -122,7 +120,7 @@ int main(int argc, char** argv) {
   hlc::apps::declare_scenario_flags(app, choices);
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::apps::whole(1, 100000));
-  app.add_flag("--starts", parts.starts,
+  app.add_flag("--print_starts", parts.starts,
                "print only `id x,y,yaw stamps` per vehicle (the next one may follow)");
   app.add_flag("--print_steps", parts.steps, "print only the number of steps");
   app.add_flag("--print_period", parts.period, "print only the duration of a step [ms]");
@@ -131,10 +129,15 @@ int main(int argc, char** argv) {
       "print only the ids of all guests and of those driven by hand, as 29,30 30; - for none");
   hlc::apps::declare_output(app, plot,
                             "draw lanes, reference paths and cars at the start (SVG, PDF); with "
-                            "--starts also their poses: a sheet to place them by");
-  app.footer(
-      "Exit codes: 0 success, 2 invalid input or an output that cannot be written, 3 not drawn.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
+                            "--print_starts also their poses: a sheet to place them by");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"show_scenario --scenario paper_three_cars",
+                         "show_scenario --scenario lab_cars --cars 10 --seed 3 --plot start.svg"},
+            .exit_codes =
+                "0 success, 2 invalid input or an output that cannot be written, 3 not drawn"});
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, {{"--starts", "--print_starts"}})) {
+    return *code;
+  }
   const auto run = [&] {
     std::vector<std::filesystem::path> inputs{choices.file};
     if (choices.map_file) inputs.push_back(*choices.map_file);
@@ -146,5 +149,5 @@ int main(int argc, char** argv) {
     return hlc::plot::draw(parts.starts ? "sheet" : "scenario", hlc::plot::scenario_data(scenario),
                            *plot.file);
   };
-  return hlc::apps::exit_code_of("show_scenario", run, kExitFailed);
+  return hlc::apps::exit_code_of("show_scenario", run);
 }

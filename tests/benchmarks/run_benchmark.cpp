@@ -15,8 +15,6 @@
 
 namespace {
 
-constexpr int kExitFailed = 2;
-
 hlc::Nanoseconds wall_clock() {
   return static_cast<hlc::Nanoseconds>(
       std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count());
@@ -88,15 +86,18 @@ int main(int argc, char** argv) {
   hlc::scenario::ScenarioChoices choices;
   std::size_t repeats = 20;
   hlc::apps::declare_scenario_flags(app, choices);
-  app.get_option("--scenario")->required(false)->capture_default_str();
-  choices.file = "launch_scripts/scenarios/paper_three_cars.yaml";
+  app.get_option("--scenario")
+      ->required(false)
+      ->run_callback_for_default()
+      ->default_val("paper_three_cars");
   app.add_option("--steps", choices.steps, "instead of the scenario's")
       ->check(hlc::apps::whole(1, 100000));
   app.add_option("--repeats", repeats, "how often")
       ->check(hlc::apps::whole(1, 10000))
       ->capture_default_str();
-  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::apps::exit_code_of(
-      "run_benchmark", [&] { run(choices, repeats); }, kExitFailed);
+  hlc::apps::declare_help_end(
+      app,
+      {.examples = {"run_benchmark", "run_benchmark --scenario lab_cars --cars 20 --repeats 3"}});
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("run_benchmark", [&] { run(choices, repeats); });
 }

@@ -113,9 +113,10 @@ int main(int argc, char** argv) {
   app.add_option("--only", choices.only, "run this engine alone, once per problem")
       ->check(hlc::apps::among(hlc::test::contestant_names()));
   app.add_flag("--list", choices.lists, "name the sets and end");
-  app.footer(
-      "Exit codes: 0 success, 1 an engine's plan is not optimal or something failed, 2 invalid "
-      "input.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"search_benchmark --sets three_cars,cars_19", "search_benchmark --list"},
+            .exit_codes = "0 success, 1 an engine's plan is not optimal, 2 invalid input or an "
+                          "output that cannot be written"});
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   return hlc::apps::exit_code_of("search_benchmark", [&choices] {
     if (!choices.lists) return run(choices) ? 0 : 1;

@@ -17,8 +17,6 @@
 
 namespace {
 
-constexpr int kExitFailed = 2;
-
 struct Sample {
   std::size_t draws{3};
   std::size_t repeats{5};
@@ -102,12 +100,13 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", sample.repeats, "how often; of each step the least time counts")
       ->check(hlc::apps::whole(1, 1000))
       ->capture_default_str();
-  choices.file = "launch_scripts/scenarios/lab_cars.yaml";
-  app.add_option("--scenario", choices.file, "scenario file (YAML) that draws its cars")
-      ->capture_default_str();
+  hlc::apps::declare_scenario(app, "--scenario", choices.file, ", which draws its cars")
+      ->run_callback_for_default()
+      ->default_val("lab_cars");
   hlc::apps::declare_output(app, plot, "draw the growth (SVG)");
-  app.footer("Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitFailed)) return *code;
-  return hlc::apps::exit_code_of(
-      "step_benchmark", [&] { run(choices, numbers, sample, plot); }, kExitFailed);
+  hlc::apps::declare_help_end(
+      app, {.examples = {"step_benchmark",
+                         "step_benchmark --cars 10,20,40 --repeats 5 --plot growth.svg"}});
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
+  return hlc::apps::exit_code_of("step_benchmark", [&] { run(choices, numbers, sample, plot); });
 }

@@ -5,12 +5,15 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 
 usage() {
   cat <<'TEXT'
-usage: tests/fuzz/run.sh [--seconds N | --runs N] [--target NAME]
-  --seconds N    each target so long (default 60)
+usage: run.sh [--time_s N | --runs N] [--target NAME]
+  --time_s N     each target so many seconds (default 60)
   --runs N       each target so many inputs
   --target NAME  only this one
 Prints a line per target: inputs, inputs per second, peak memory, result. Corpus, logs and inputs that failed:
 build/fuzz/corpus, build/fuzz/logs, build/fuzz/failed. Needs the Debian package libclang-rt-14-dev (libFuzzer).
+Examples:
+  run.sh --time_s 600
+  run.sh --runs 100000 --target scenario
 Exit codes: 0 no fault, 1 build or setup failed, or a fault was found, 2 invalid input
 TEXT
 }
@@ -21,11 +24,15 @@ number() { [[ $2 =~ ^[1-9][0-9]{0,8}$ ]] || fail "$1 = $2, must be a whole numbe
 limit=(-max_total_time=60)
 only=""
 while (($#)); do
+  if [[ $1 == --seconds ]]; then # up to the last release
+    echo "run.sh: --seconds is now --time_s" >&2
+    set -- --time_s "${@:2}"
+  fi
   case "$1" in
     -h | --help) usage; exit 0 ;;
     --version) exec "$root/launch_scripts/version.sh" run.sh ;;
-    --seconds | --runs | --target) (($# >= 2)) || fail "$1 needs a value" ;;&
-    --seconds) number "$1" "$2"; limit=("-max_total_time=$2"); shift ;;
+    --time_s | --runs | --target) (($# >= 2)) || fail "$1 needs a value" ;;&
+    --time_s) number "$1" "$2"; limit=("-max_total_time=$2"); shift ;;
     --runs) number "$1" "$2"; limit=("-runs=$2"); shift ;;
     --target) only=$2; shift ;;
     *) fail "unknown flag $1 (see --help)" ;;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/common/program_version.hpp"
+#include "tests/house/command_help.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 
@@ -17,27 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Programs by their names, scripts that are run (others are parts of these) by their paths from
-/// the folder of the programs.
-std::vector<std::string> commands() {
-  std::vector<std::string> all;
-  std::istringstream programs(HLC_PROGRAMS);
-  for (std::string name; programs >> name;) all.push_back(name);
-  const fs::path bin = fs::path(test::build_folder()) / "bin";
-  const fs::path root = test::source_folder();
-  for (const auto& entry : fs::directory_iterator(root / "launch_scripts")) {
-    const bool is_program =
-        (entry.status().permissions() & fs::perms::owner_exec) != fs::perms::none;
-    if (is_program && entry.path().extension() == ".sh")
-      all.push_back(entry.path().lexically_relative(bin));
-  }
-  all.push_back((root / "tests/verify/verify.sh").lexically_relative(bin));
-  return all;
-}
-
 TEST(EveryProgramAndScript, SaysItsNameVersionAndRevision) {
   ASSERT_TRUE(std::regex_match(program_release(), std::regex(R"([0-9]+\.[0-9]+\.[0-9]+)")));
-  for (const std::string& command : commands()) {
+  for (const std::string& command : all_commands()) {
     SCOPED_TRACE(command);
     const test::Outcome outcome = test::run_program(command + " --version");
     EXPECT_EQ(outcome.exit_code, 0);
@@ -48,17 +31,8 @@ TEST(EveryProgramAndScript, SaysItsNameVersionAndRevision) {
   }
 }
 
-TEST(EveryProgramAndScript, HasAHelp) {
-  for (const std::string& command : commands()) {
-    SCOPED_TRACE(command);
-    const test::Outcome outcome = test::run_program(command + " --help");
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_TRUE(std::regex_search(outcome.output, std::regex("[Uu]sage:"))) << outcome.output;
-  }
-}
-
 TEST(EveryProgramAndScript, RefusesAnUnknownFlagInOneLine) {
-  for (const std::string& command : commands()) {
+  for (const std::string& command : all_commands()) {
     SCOPED_TRACE(command);
     const test::Outcome outcome = test::run_program(command + " --no_such_flag");
     EXPECT_EQ(outcome.exit_code, 2);

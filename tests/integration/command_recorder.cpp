@@ -32,11 +32,14 @@ void declare(CLI::App& app, Flags& flags) {
       ->delimiter(',')
       ->required()
       ->check(hlc::apps::vehicle_id_range());
-  app.add_option("--out", flags.out, "file for the commands")->required();
-  app.footer(
-      "Ends with the lab control or the last of the middlewares. Exit codes: 0 success, 2 invalid "
-      "input, "
-      "4 the file cannot be written.");
+  app.add_option("--out", flags.out, "file for the commands")->required()->type_name("FILE");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples = {"command_recorder --vehicle_ids 1,2,3 --dds_domain 40 --out commands.csv",
+                    "command_recorder --vehicle_ids 1 --transport loopback --simulated_time true "
+                    "--out commands.csv"},
+       .exit_codes = "0 success, 2 invalid input or an output that cannot be written, 4 failed",
+       .notes = "Ends with the lab control or the last of the middlewares."});
 }
 
 class Recorder {
@@ -101,7 +104,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Writes every trajectory command of the lab domain to a file.", "command_recorder"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitDied)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   return hlc::apps::run_program(
       "command_recorder", signals, [&] { return std::make_shared<Recorder>(flags); },
       [](Recorder& recorder) { recorder.stop(); });

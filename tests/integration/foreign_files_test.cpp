@@ -164,15 +164,15 @@ TEST_F(ForeignFiles, NoProgramThatARunFolderNamesIsRun) {
     fs::permissions(evil / program, fs::perms::owner_all);
   }
   const DomainReservation domains{2};
-  const std::vector<std::string> kept{"--id=1", "--scenario=paper_red_alone",
+  const std::vector<std::string> kept{"--vehicle_ids=1", "--scenario=paper_red_alone",
                                       "--bin=" + evil.string(), "--startup_timeout_s=1",
                                       "--dds_domain=" + std::to_string(domains.first())};
   for (const char separator : {'\0', '\n'}) {
     std::ofstream flags(folder_ / "run" / "logs" / "vehicle_1.flags");
     for (const std::string& flag : kept) flags << flag << separator;
     flags.close();
-    ChildProcess vehicle({kScripts + "vehicle.sh", "--id", "1", "--only", "vehicle", "--out",
-                          (folder_ / "run").string()},
+    ChildProcess vehicle({kScripts + "vehicle.sh", "--vehicle_ids", "1", "--only", "vehicle",
+                          "--out", (folder_ / "run").string()},
                          folder_ / "output");
     EXPECT_NE(vehicle.wait_for(60s).value_or(0), 0) << output();
     EXPECT_FALSE(fs::exists(folder_ / "was_run"));
@@ -191,7 +191,7 @@ TEST_P(FolderNames, AreAllAllowedForARun) {
   const fs::path work = folder_ / GetParam().folder;
   fs::create_directory(work);
   const std::string command =
-      "cd -- \"$1\" && exec \"$2\" --bin \"$3\" --out \"$4\" --dump-problems \"$4/problems\" "
+      "cd -- \"$1\" && exec \"$2\" --bin \"$3\" --out \"$4\" --dump_problems \"$4/problems\" "
       "--scenario paper_red_alone --steps 5 --startup_timeout_s 30";
   ChildProcess run({"/bin/bash", "-c", command, "bash", work.string(), kScripts + "run_lab.sh",
                     kBin, GetParam().folder},

@@ -89,7 +89,7 @@ LabOverNetwork::LabOverNetwork(const Network& network, int steps, const std::str
   };
   for (int i = 1; i <= Network::kVehicles; ++i) {
     const std::string id = std::to_string(i);
-    std::string flags = " --id " + id;
+    std::string flags = " --vehicle_ids " + id;
     flags += " --bin " + kPrograms;
     flags += " --scenario " + kScenario;
     if (names_peers) flags += peers_of(i);

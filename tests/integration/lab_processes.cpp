@@ -70,7 +70,7 @@ LabProcesses::LabProcesses(const LabOptions& options, scenario::Scenario given)
         "--startup_timeout_s=" +
             std::to_string(options.startup_timeout_s + (program == "lab_control" ? 0 : 10))};
   };
-  const std::string messages = "--messages=" + (folder() / "messages").string();
+  const std::string messages = "--messages_folder=" + (folder() / "messages").string();
   const auto add = [&](const std::string& name, std::vector<std::string> command,
                        const std::vector<std::string>& flags) {
     if (std::ranges::find(options.absent, name) != options.absent.end()) return;

@@ -72,7 +72,7 @@ class Reconfiguration : public testing::Test {
 
 TEST_F(Reconfiguration, ASpeedLimitHoldsForTheVehicleThatIsAskedUntilTheScenariosOwnIsAskedFor) {
   // The paper's automaton drives straight on at 0.8 m/s alone: a lower limit leaves few ways.
-  const Asked slow = ask({"--vehicle=2", "--max_speed=0.7"});
+  const Asked slow = ask({"--vehicle_ids=2", "--max_speed_mps=0.7"});
   EXPECT_EQ(slow.code, 0) << slow.output;
   EXPECT_THAT(slow.output, HasSubstr("vehicle 2: in force from step"));
   EXPECT_THAT(slow.output, HasSubstr("B, at most 0.7 m/s"));
@@ -84,14 +84,14 @@ TEST_F(Reconfiguration, ASpeedLimitHoldsForTheVehicleThatIsAskedUntilTheScenario
       [&] { return top_speed_mps(2) < kBetween_mps && top_speed_mps(1) > kBetween_mps; }))
       << "vehicle 2 at " << top_speed_mps(2) << " m/s, vehicle 1 at " << top_speed_mps(1);
 
-  const Asked own = ask({"--vehicle=2"});
+  const Asked own = ask({"--vehicle_ids=2"});
   EXPECT_EQ(own.code, 0) << own.output;
   EXPECT_TRUE(eventually(kPatience, [&] { return top_speed_mps(2) > kBetween_mps; }));
   expect_good_end();
 }
 
 TEST_F(Reconfiguration, AllAreAskedForAnotherLabelFromATimeOn) {
-  const Asked asked = ask({"--criterion=J3", "--in_s=1"});
+  const Asked asked = ask({"--criteria=J3", "--in_s=1"});
   EXPECT_EQ(asked.code, 0) << asked.output;
   for (const char* vehicle : {"1", "2", "3"}) {
     const std::string name = std::string("vehicle ") + vehicle;
@@ -102,7 +102,7 @@ TEST_F(Reconfiguration, AllAreAskedForAnotherLabelFromATimeOn) {
 }
 
 TEST_F(Reconfiguration, NewWeightsAreSolvedBesideTheRunAndDrivenOn) {
-  const Asked asked = ask({"--vehicle=2", "--weights=J2=0.1,J1=0.9"});
+  const Asked asked = ask({"--vehicle_ids=2", "--weights=J2=0.1,J1=0.9"});
   EXPECT_EQ(asked.code, 0) << asked.output;
   EXPECT_THAT(asked.output, HasSubstr("vehicle 2: in force from step"));
   EXPECT_THAT(asked.output, HasSubstr("B, weights J1 0.9 J2 0.1"));
@@ -115,23 +115,23 @@ TEST_F(Reconfiguration, NewWeightsAreSolvedBesideTheRunAndDrivenOn) {
              record.report.subgraph == "B, weights J1 0.9 J2 0.1";
     });
   })) << "the records name the new maneuvers";
-  const Asked unknown = ask({"--vehicle=2", "--weights=J1=0.3,J9=0.7"});
+  const Asked unknown = ask({"--vehicle_ids=2", "--weights=J1=0.3,J9=0.7"});
   EXPECT_EQ(unknown.code, 1) << unknown.output;
   EXPECT_THAT(unknown.output,
               HasSubstr("vehicle 2: refused: weights: criterion 'J9', must be one of J1"));
-  EXPECT_EQ(ask({"--vehicle=2", "--weights=J1:0.3"}).code, 2);
-  EXPECT_EQ(ask({"--vehicle=2", "--weights=J1=0.3", "--criterion=J2"}).code, 2);
+  EXPECT_EQ(ask({"--vehicle_ids=2", "--weights=J1:0.3"}).code, 2);
+  EXPECT_EQ(ask({"--vehicle_ids=2", "--weights=J1=0.3", "--criteria=J2"}).code, 2);
   expect_good_end();
 }
 
 TEST_F(Reconfiguration, WhatCannotBeIsRefusedAndTheCarDrivesOn) {
-  const Asked refused = ask({"--vehicle=2", "--max_speed=0.1"});
+  const Asked refused = ask({"--vehicle_ids=2", "--max_speed_mps=0.1"});
   EXPECT_EQ(refused.code, 1) << refused.output;
   EXPECT_THAT(refused.output, HasSubstr("vehicle 2: refused: speed limit 0.1 m/s, must be >= 0.4"));
-  EXPECT_EQ(ask({"--vehicle=2", "--criterion=J9"}).code, 1);
-  EXPECT_EQ(ask({"--vehicle=2", "--disable_edges=1-2"}).code, 2);
-  EXPECT_EQ(ask({"--vehicle=2,2"}).code, 2);
-  const Asked unanswered = ask({"--vehicle=7", "--timeout_s=1"});
+  EXPECT_EQ(ask({"--vehicle_ids=2", "--criteria=J9"}).code, 1);
+  EXPECT_EQ(ask({"--vehicle_ids=2", "--disable_edges=1-2"}).code, 2);
+  EXPECT_EQ(ask({"--vehicle_ids=2,2"}).code, 2);
+  const Asked unanswered = ask({"--vehicle_ids=7", "--timeout_s=1"});
   EXPECT_EQ(unanswered.code, 3);
   EXPECT_THAT(unanswered.output, HasSubstr("high_level_controller_7"));
   const StepIndex after{time::real_time_now() / kNanosecondsPerSecond * 5};
@@ -162,11 +162,11 @@ TEST_F(ReconfigurationInAZone, TheZonesLimitIsLaidOnWhatTheOperatorAsksFor) {
     });
   };
   EXPECT_TRUE(drives_in_and_out("J2", {}));
-  const Asked comfort = ask({"--vehicle=2", "--criterion=comfort"});
+  const Asked comfort = ask({"--vehicle_ids=2", "--criteria=comfort"});
   EXPECT_EQ(comfort.code, 0) << comfort.output;
   const StepIndex since{time::real_time_now() / kNanosecondsPerSecond * 5};
   EXPECT_TRUE(drives_in_and_out("J2, label comfort", since));
-  const Asked own = ask({"--vehicle=2"});
+  const Asked own = ask({"--vehicle_ids=2"});
   EXPECT_EQ(own.code, 0) << own.output;
   EXPECT_TRUE(drives_in_and_out("J2", {time::real_time_now() / kNanosecondsPerSecond * 5 + 2}));
   expect_good_end();

@@ -15,6 +15,7 @@
 
 #include "tests/integration/lab_processes.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/num_seeds.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace hlc::test {
@@ -149,10 +150,11 @@ std::filesystem::path in_two_rounds(const std::string& name, const TemporaryFold
 
 TEST(Run, InTwoRoundsCarsDriveAsTheyDoOneAfterTheOther) {
   const TemporaryFolder folder;
-  LabProcesses sequential({.scenario = "lab_cars", .cars = 5, .steps = 40});
+  constexpr int kSteps = 40 / static_cast<int>(kThinning);
+  LabProcesses sequential({.scenario = "lab_cars", .cars = 5, .steps = kSteps});
   const nlohmann::json expected = drive(sequential, sequential.names());
   LabProcesses two(
-      {.scenario = in_two_rounds("lab_cars", folder).string(), .cars = 5, .steps = 40});
+      {.scenario = in_two_rounds("lab_cars", folder).string(), .cars = 5, .steps = kSteps});
   const nlohmann::json summary = drive(two, two.names());
   ASSERT_TRUE(summary.is_object());
   EXPECT_EQ(summary["trace_sha256"], expected["trace_sha256"]);

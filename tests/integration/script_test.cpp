@@ -190,7 +190,7 @@ TEST_F(Scripts, PlanningProblemsOfARunAreSolvedAgainWithTheSameVertices) {
   const std::filesystem::path problems = out / "problems";
   ChildProcess run =
       run_lab({"--scenario", "reconfiguration.yaml", "--steps", "10", "--engine", "best_first",
-               "--dump-problems", problems.string(), "--out", out.string()});
+               "--dump_problems", problems.string(), "--out", out.string()});
   ASSERT_EQ(run.wait_for(240s), 0) << output();
   auto expected = searched_vertices(out / "reports.csv");
   EXPECT_GE(expected.size(), 30U);
@@ -228,9 +228,9 @@ TEST_F(Scripts, AFolderForProblemsThatIsNotGoodIsRefusedBeforeAnythingStarts) {
         std::string(), (folder_ / "full").string(),
         (folder_ / "full" / "vehicle_1.json").string()}) {
     ChildProcess run =
-        run_lab({"--steps", "10", "--dump-problems=" + problems, "--out", out.string()});
+        run_lab({"--steps", "10", "--dump_problems=" + problems, "--out", out.string()});
     EXPECT_EQ(run.wait_for(60s), 2) << output();
-    EXPECT_NE(output().find("run_lab.sh: --dump-problems = " + problems), std::string::npos)
+    EXPECT_NE(output().find("run_lab.sh: --dump_problems = " + problems), std::string::npos)
         << output();
     EXPECT_NE(output().find("must be a new or an empty folder"), std::string::npos) << output();
     EXPECT_EQ(std::ranges::count(output(), '\n'), 1) << output();
@@ -253,7 +253,7 @@ TEST_F(Scripts, ProblemsThatCouldNotBeWrittenAreAFailureButHideNone) {
     SCOPED_TRACE("gains " + gains_scale);
     const std::filesystem::path problems = folder_ / ("problems_" + gains_scale);
     ChildProcess run = run_lab({"--steps", "15", "--simulated_time", "false", "--gains_scale",
-                                gains_scale, "--dump-problems", problems.string(), "--out",
+                                gains_scale, "--dump_problems", problems.string(), "--out",
                                 (folder_ / ("run_" + gains_scale)).string()});
     ASSERT_TRUE(eventually(60s, [&] { return has_problem_file(problems); })) << output();
     std::filesystem::rename(problems, problems.string() + "_elsewhere");
@@ -263,12 +263,13 @@ TEST_F(Scripts, ProblemsThatCouldNotBeWrittenAreAFailureButHideNone) {
 
 TEST_F(Scripts, AVehicleRefusesAFolderForProblemsThatCannotBeMade) {
   for (const std::string problems : {"", "/dev/null", "/proc/problems"}) {
-    ChildProcess vehicle({kScripts + "vehicle.sh", "--bin", kBin, "--id", "1", "--scenario",
-                          "paper_red_alone", "--dds_domain", "50", "--transport", "lab",
-                          "--dump-problems=" + problems, "--out", (folder_ / "run").string()},
-                         folder_ / "output");
+    ChildProcess vehicle(
+        {kScripts + "vehicle.sh", "--bin", kBin, "--vehicle_ids", "1", "--scenario",
+         "paper_red_alone", "--dds_domain", "50", "--transport", "lab",
+         "--dump_problems=" + problems, "--out", (folder_ / "run").string()},
+        folder_ / "output");
     EXPECT_EQ(vehicle.wait_for(60s), 2) << output();
-    EXPECT_NE(output().find("vehicle.sh: --dump-problems = " + problems), std::string::npos)
+    EXPECT_NE(output().find("vehicle.sh: --dump_problems = " + problems), std::string::npos)
         << output();
     EXPECT_FALSE(std::filesystem::exists(folder_ / "run"));
   }
@@ -291,8 +292,8 @@ TEST_F(Scripts, AVehicleByHandJoinsNoRunThatHasReservedTheDomain) {
   const DomainReservation domains{2};
   const std::string domain = std::to_string(domains.first());
   ChildProcess vehicle(
-      {kScripts + "vehicle.sh", "--bin", kBin, "--id", "1", "--scenario", "paper_red_alone",
-       "--dds_domain", domain, "--out", folder_.path().string()},
+      {kScripts + "vehicle.sh", "--bin", kBin, "--vehicle_ids", "1", "--scenario",
+       "paper_red_alone", "--dds_domain", domain, "--out", folder_.path().string()},
       folder_ / "output");
   EXPECT_EQ(vehicle.wait_for(60s), 2) << output();
   EXPECT_NE(output().find("--dds_domain = " + domain), std::string::npos) << output();
@@ -361,8 +362,15 @@ TEST_P(KilledProcess, IsStartedAgainByOneCommandAndTheRunGoesOn) {
                               "--out", out.string()});
   ASSERT_TRUE(eventually(60s, [&] { return read_text(out / "reports.csv").size() > 8000; }))
       << output();
-  const std::vector<std::string> command{
-      kScripts + "vehicle.sh", "--bin", kBin, "--id", "2", "--only", only, "--out", out.string()};
+  const std::vector<std::string> command{kScripts + "vehicle.sh",
+                                         "--bin",
+                                         kBin,
+                                         "--vehicle_ids",
+                                         "2",
+                                         "--only",
+                                         only,
+                                         "--out",
+                                         out.string()};
   const pid_t pid = pid_of(out, process);
   ASSERT_GT(pid, 0);
   ChildProcess second(command, folder_ / "second");
@@ -406,7 +414,7 @@ INSTANTIATE_TEST_SUITE_P(Scripts, KilledProcess,
 TEST_F(Scripts, AFinishedRunIsNotWrittenOver) {
   std::filesystem::create_directory(folder_ / "run");
   std::ofstream(folder_ / "run" / "run.json") << R"({"exit_code": 0, "reason": ""})";
-  ChildProcess vehicle({kScripts + "vehicle.sh", "--bin", kBin, "--id", "1", "--scenario",
+  ChildProcess vehicle({kScripts + "vehicle.sh", "--bin", kBin, "--vehicle_ids", "1", "--scenario",
                         "paper_red_alone", "--out", (folder_ / "run").string()},
                        folder_ / "output");
   EXPECT_EQ(vehicle.wait_for(60s), 2) << output();

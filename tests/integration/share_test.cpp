@@ -29,8 +29,8 @@ class SharedProcesses : public testing::Test {
     return ChildProcess(flags, folder_ / "output");
   }
   ChildProcess restart(const std::string& id, const std::string& only) {
-    return ChildProcess({kScripts + "vehicle.sh", "--bin", kBin, "--id", id, "--only", only,
-                         "--out", out().string()},
+    return ChildProcess({kScripts + "vehicle.sh", "--bin", kBin, "--vehicle_ids", id, "--only",
+                         only, "--out", out().string()},
                         folder_ / only);
   }
   [[nodiscard]] std::string output() const { return read_text(folder_ / "output"); }
@@ -109,7 +109,8 @@ TEST_F(SharedProcesses, AControllerIsStartedAgainAloneButNothingThatOthersShare)
   for (const std::string only : {"middleware", "vehicle"}) {
     EXPECT_EQ(restart("2", only).wait_for(60s), 2);
     EXPECT_EQ(read_text(folder_ / only),
-              "vehicle.sh: --only = " + only + ": vehicle 2 shares it, must be with --id 1,2,3\n");
+              "vehicle.sh: --only = " + only +
+                  ": vehicle 2 shares it, must be with --vehicle_ids 1,2,3\n");
   }
   const pid_t pid = pid_of("high_level_controller_2");
   ASSERT_GT(pid, 0);

@@ -4,6 +4,7 @@
 
 #include "planner/coordination/priorities/strategies.hpp"
 #include "tests/support/folders.hpp"
+#include "tests/support/num_seeds.hpp"
 
 namespace hlc::closed_loop {
 namespace {
@@ -26,7 +27,7 @@ std::string text_of(const FaultCase& the_case, const FaultRunResult& result) {
 
 TEST(FaultCampaign, NothingIsViolatedInRunsWithFaultsOfAllKinds) {
   FaultTotals totals;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 60 / test::kThinning; ++seed) {
     const FaultCase the_case = campaign().draw(seed);
     const FaultRunResult result = FaultCampaign::run(the_case);
     EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
@@ -44,7 +45,7 @@ TEST(FaultCampaign, NothingIsViolatedAmongCarsWithRightOfWay) {
        .cars = 6,
        .kinds = fault_kinds_of({})});
   FaultTotals totals;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 6 / test::kThinning; ++seed) {
     const FaultCase the_case = on_lab_network.draw(seed);
     EXPECT_EQ(the_case.scenario.vehicles.size(), 6U);
     EXPECT_NE(the_case.scenario.conflicts, nullptr);
@@ -78,7 +79,7 @@ TEST(FaultCampaign, NothingIsViolatedInTwoRounds) {
        .has_two_rounds = true});
   FaultTotals totals;
   FaultTotals sequential;
-  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 30 / test::kThinning; ++seed) {
     const FaultCase the_case = in_two_rounds.draw(seed);
     const FaultRunResult result = FaultCampaign::run(the_case);
     EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
@@ -102,7 +103,7 @@ TEST_P(FaultCampaignWith, PrioritiesThatChangeViolatesNothing) {
                             .kinds = fault_kinds_of({}),
                             .priorities = GetParam()});
   FaultTotals totals;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 8 / test::kThinning; ++seed) {
     const FaultCase the_case = with.draw(seed);
     const FaultRunResult result = FaultCampaign::run(the_case);
     EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
@@ -128,7 +129,7 @@ TEST(FaultCampaign, WithoutFaultsEverybodyPlansInEveryStep) {
 }
 
 TEST(FaultCampaign, TheSameSeedGivesTheSameHashAndAnotherSeedAnother) {
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 8 / test::kThinning; ++seed) {
     const FaultRunResult first = FaultCampaign::run(campaign().draw(seed));
     const FaultRunResult again = FaultCampaign::run(campaign().draw(seed));
     EXPECT_EQ(first.hash, again.hash) << seed;

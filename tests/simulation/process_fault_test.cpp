@@ -78,7 +78,7 @@ class LastingFault : public testing::TestWithParam<ProcessFault> {};
 TEST_P(LastingFault, LeavesItsCarOnItsLastPlanAndStandingAndTheOthersKeepClear) {
   const ProcessFault& fault = GetParam();
   for (const bool is_lab : {false, true}) {
-    for (std::uint64_t seed = 1; seed <= test::num_seeds(3); ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(3); ++seed) {
       SCOPED_TRACE((is_lab ? "lab, seed " : "paper, seed ") + std::to_string(seed));
       FaultyRun one(is_lab ? "lab_three_cars" : "paper_three_cars",
                     is_lab ? Transport::kLab : Transport::kLoopback, seed);
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Too short to count as dead: planning continues when its messages arrive again.
 TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
   constexpr VehicleId kVictim{2};
-  for (std::uint64_t seed = 1; seed <= test::num_seeds(3); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(3); ++seed) {
     FaultyRun one("paper_three_cars", Transport::kLoopback, seed);
     ASSERT_TRUE(one.drives_near_another(kVictim));
     one.strike(controller_name(2), false);
@@ -134,7 +134,7 @@ TEST(PassingFault, AStoppedControllerThatGoesOnIsHeardAgainAndItsCarDrivesOn) {
 // All consider it dead; it wakes up with old messages.
 TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn) {
   constexpr VehicleId kVictim{2};
-  for (std::uint64_t seed = 1; seed <= test::num_seeds(3); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(3); ++seed) {
     FaultyRun one("paper_three_cars", Transport::kLoopback, seed);
     ASSERT_TRUE(one.drives_near_another(kVictim));
     one.strike(controller_name(2), false);
@@ -156,7 +156,7 @@ TEST(PassingFault, AControllerThatIsStoppedUntilAllStandHurtsNobodyWhenItGoesOn)
 
 // Its car stands at once; the others, which see it, plan around it or stop.
 TEST(LastingFault, OfAVehicleHurtsNobodyAndIsNamed) {
-  for (std::uint64_t seed = 1; seed <= test::num_seeds(3); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(3); ++seed) {
     FaultyRun one("paper_three_cars", Transport::kLoopback, seed);
     ASSERT_TRUE(one.drives_near_another({2}));
     one.strike(vehicle_name(2), true);

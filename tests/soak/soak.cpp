@@ -138,10 +138,11 @@ int main(int argc, char** argv) {
         ->capture_default_str();
   }
   app.require_subcommand(1);
-  app.footer(
-      "Real processes on this machine. As root with an empty /dev/shm of its own, in which nothing "
-      "may be left, and with a network per car in some runs. "
-      "Exit codes: 0 every run passed, 1 a run failed, 2 invalid input.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"soak faults --runs 100 --seed 1", "soak cycles"},
+            .exit_codes = "0 every run passed, 1 a run failed, 2 invalid input",
+            .notes = "Real processes on this machine. As root with an empty /dev/shm of its own, "
+                     "in which nothing may be left, and with a network per car in some runs."});
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   const bool is_root = hlc::test::use_own_shared_memory();
   if (!is_root) std::printf("without root: leftovers in /dev/shm and the network are left out\n");

@@ -15,6 +15,9 @@ watches a run under way with its client.
   --bin DIR           the programs (default build/release/bin)
   --environment DIR   folder of the virtual environment, created if missing (default build/release/verify_environment)
   --xml FILE          a CommonRoad file of the one run folder, as written by export_commonroad; default: its export
+Examples:
+  verify.sh
+  verify.sh runs/my_run --xml run.xml
 Exit codes: 0 all accepted, 1 a run rejected or a negative control accepted, 2 invalid input,
             3 skipped: packages missing and PyPI not reachable, 4 installation or a drive failed
 TEXT

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -33,13 +34,14 @@ constexpr auto kStopTime = std::chrono::seconds{2};
 
 struct Flags {
   hlc::apps::NetworkFlags network;
-  std::string scenario;
+  std::filesystem::path scenario;
   int vehicle_id{};
   std::string gamepad;
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("--scenario", flags.scenario, "scenario file with the guest and its limits")
+  hlc::apps::declare_scenario(app, "--scenario", flags.scenario,
+                              ", with the guest and its limits")
       ->required();
   app.add_option("--vehicle_id", flags.vehicle_id, "the guest, with drive: by_hand")
       ->required()
@@ -47,14 +49,18 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_option(
       "--gamepad", flags.gamepad,
       "joystick device, e.g. /dev/input/js0, beside the keyboard; its first axis steers, "
-      "its second one gives the speed");
+      "its second one gives the speed; default: the keyboard alone")
+      ->type_name("FILE");
   flags.network.declare_network(app);
-  app.footer(
-      "Keys: arrow up or w faster, down or s slower, left or a, right or d steer, x straight on, "
-      "space stop, q end.\n"
-      "Commands stay within the guest's limits. At its end, also by Ctrl-C, the car is stopped "
-      "first.\n"
-      "Exit codes: 0 ended, 2 invalid input.");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples = {"drive_by_hand --scenario lab_guest --vehicle_id 30 --transport loopback",
+                    "drive_by_hand --scenario lab_guest --vehicle_id 30 --dds_domain 40 --gamepad "
+                    "/dev/input/js0"},
+       .exit_codes = "0 ended, 2 invalid input",
+       .notes = "Keys: arrow up or w faster, down or s slower, left or a, right or d steer, x "
+                "straight on, space stop, q end.\nCommands stay within the guest's limits. At its "
+                "end, also by Ctrl-C, the car is stopped first."});
 }
 
 /// @throws std::invalid_argument naming the flag
@@ -68,7 +74,7 @@ hlc::scenario::ScenarioGuest guest_of(const Flags& flags) {
   if (found != guests.end()) return *found;
   throw std::invalid_argument(
       fmt::format("--vehicle_id = {}, must be a guest of {} with drive: by_hand", flags.vehicle_id,
-                  flags.scenario));
+                  flags.scenario.string()));
 }
 
 hlc::dds::ParticipantOptions participant_options(const Flags& flags) {
@@ -149,7 +155,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Drives a guest of a running scenario by keyboard or gamepad.", "drive_by_hand"};
   Flags flags;
   declare(app, flags);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   return hlc::apps::run_program(
       "drive_by_hand", signals, [&] { return std::make_shared<HandDriver>(flags); },
       [](HandDriver& driver) { driver.stop(); });

@@ -10,6 +10,7 @@
 
 #include "hlc_bridge/record/program.hpp"
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "vehicle_sim/apps/drive_campaign.hpp"
 #include "vehicle_sim/apps/drive_sweep.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
@@ -37,7 +38,6 @@ struct Choices {
   std::filesystem::path sweep;
 };
 
-constexpr int kExitNotWritten = 3;
 constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
 constexpr std::uint64_t kMostShards = 100'000;
 
@@ -97,7 +97,6 @@ int run_sweep(const Choices& choices, const std::string& command) {
   files.finish(hlc::apps::origin_of(command));
   std::printf("%zu runs, %zu do not count, %.1f s; %s\n", sweep.runs().size(), failed, wall_s,
               (choices.out / "runs.csv").c_str());
-  if (choices.makes_report) hlc::apps::make_report(choices.out);
   return failed == 0 ? 0 : 1;
 }
 
@@ -123,12 +122,12 @@ int merge(const Choices& choices, const std::string& command) {
   for (const auto& [run, row] : merged.rows) rows.append(run, row);
   hlc::apps::write_results(rows, hlc::apps::origin_of(command));
   const double wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  const int code = conclude(rows, wall_s, "runs.csv");
-  if (choices.makes_report) hlc::apps::make_report(choices.out);
-  return code;
+  return conclude(rows, wall_s, "runs.csv");
 }
 
 int run(Choices choices, const std::string& command) {
+  const hlc::apps::Interruption interruption(
+      "evaluate", "finished runs are kept, and the same command goes on with the others");
   if (choices.is_sweep) return run_sweep(choices, command);
   if (!choices.merged.empty()) return merge(choices, command);
   const hlc::campaign::Campaign campaign = read(choices);
@@ -142,19 +141,20 @@ int run(Choices choices, const std::string& command) {
   if (choices.writes_series) {
     hlc::apps::write_series(campaign, choices.drive.jobs, series_folder(choices));
   }
-  if (choices.makes_report) hlc::apps::make_report(choices.out);
   return code;
 }
 
 void declare_campaign(CLI::App& app, Choices& choices) {
   choices.plan.profiles = {"default"};
-  choices.scenario_folder = "launch_scripts/scenarios";
-  choices.drive.jobs = std::max(1U, std::thread::hardware_concurrency());
+  choices.scenario_folder = hlc::apps::shipped_scenarios();
   app.add_option("--scenario", choices.scenarios,
-                 "scenario files, or names of files in --scenario_folder")
+                 "scenario files (YAML), or names of files in --scenario_folder")
       ->delimiter(',')
+      ->type_name("SCENARIO")
       ->capture_default_str();
-  app.add_option("--scenario_folder", choices.scenario_folder)->capture_default_str();
+  app.add_option("--scenario_folder", choices.scenario_folder,
+                 "folder of the scenarios (default: scenarios beside the program)")
+      ->type_name("DIR");
   hlc::apps::declare_profile_flag(app, choices.plan.profiles)->delimiter(',');
   app.add_option("--subgraphs", choices.plan.subgraphs,
                  "fixed ones of the automaton, as A,B,C,D, driven without a policy; default: the "
@@ -162,7 +162,7 @@ void declare_campaign(CLI::App& app, Choices& choices) {
       ->delimiter(',');
   app.add_option("--policies", choices.plan.policies,
                  "of the scenario: drives it also on its own subgraph with each of these policies; "
-                 "without, no policy drives, not even the scenario's own")
+                 "default: no policy drives, not even the scenario's own")
       ->delimiter(',');
   app.add_option("--starts", choices.plan.starts,
                  "number of starts: the scenario's own, then random ones on the routes, or other "
@@ -174,9 +174,11 @@ void declare_campaign(CLI::App& app, Choices& choices) {
       ->capture_default_str();
   app.add_option("--steps", choices.plan.steps, "instead of the scenarios'")
       ->check(hlc::apps::whole(1, 100'000));
-  app.add_option("--map", choices.plan.map_file, "CommonRoad XML instead of the scenarios'");
+  app.add_option("--map", choices.plan.map_file, "CommonRoad XML instead of the scenarios'")
+      ->type_name("FILE");
   app.add_option("--cars", choices.plan.cars,
-                 "number of cars (scenarios on a circle, or that draw their cars)")
+                 "number of cars (scenarios on a circle, or that draw their cars), instead of the "
+                 "scenarios'")
       ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
   app.add_option("--routes", choices.plan.routes,
                  "random: every car takes random turns forever, instead of the scenarios' routes")
@@ -184,6 +186,10 @@ void declare_campaign(CLI::App& app, Choices& choices) {
   app.add_option("--noise_seed", choices.plan.noise_seed,
                  "measurement noise of the simulated cars; default: none")
       ->check(hlc::apps::whole(0, kLargestSeed));
+}
+
+void declare_output(CLI::App& app, Choices& choices) {
+  choices.drive.jobs = std::max(1U, std::thread::hardware_concurrency());
   app.add_option("--jobs", choices.drive.jobs, "runs at a time")
       ->check(hlc::apps::whole(1, 256))
       ->capture_default_str();
@@ -196,7 +202,8 @@ void declare_campaign(CLI::App& app, Choices& choices) {
   app.add_option("--out", choices.out,
                  "folder for runs.csv (a row per run), cars.csv (a row per run and car), "
                  "campaign.json; an interrupted campaign goes on")
-      ->required();
+      ->required()
+      ->type_name("DIR");
   app.add_flag("--report", choices.makes_report,
                "also makes the page OUT/report.md from the rows: tables, statistics, figures "
                "(vehicle_sim/report; its Python packages are installed once, into "
@@ -224,7 +231,7 @@ void declare_shards(CLI::App& app, Choices& choices) {
   const std::string allowed = fmt::format("I/N, 1 <= I <= N <= {}", kMostShards);
   app.add_option("--shard", choices.shard,
                  "drives only the I-th of N shares of the runs, I from 1, and writes runs.jsonl "
-                 "alone: for job arrays, each with an --out of its own")
+                 "alone: for job arrays, each with an --out of its own; default: all")
       ->check(hlc::apps::allowing(
           [](const std::string& text) { return shard_of(text).has_value(); }, allowed, allowed))
       ->excludes(app.get_option("--series"))
@@ -232,22 +239,31 @@ void declare_shards(CLI::App& app, Choices& choices) {
   CLI::Option* merge =
       app.add_option("--merge", choices.merged,
                      "the runs.jsonl of all shards of a campaign, as runs/*/runs.jsonl: drives "
-                     "nothing, writes to --out what one call for all runs would have written");
+                     "nothing, writes to --out what one call for all runs would have written; "
+                     "default: none");
+  merge->type_name("FILE");
   exclude_all_but(app, merge, {"--out", "--report"});
 }
 
 /// The option that replaces all the others that select the runs.
 CLI::Option* declare(CLI::App& app, Choices& choices) {
   declare_campaign(app, choices);
+  declare_output(app, choices);
   declare_shards(app, choices);
   CLI::Option* sweep = app.add_option(
       "--sweep", choices.sweep,
       "a file with the settings and their values (launch_scripts/sweeps/README.md): drives "
-      "every combination instead of a campaign");
+      "every combination instead of a campaign; default: none");
+  sweep->type_name("FILE");
   exclude_all_but(app, sweep, {"--jobs", "--out", "--report"});
-  app.footer(
-      "Exit codes: 0 all runs driven, 1 some failed (reasons in runs.csv), 2 bad input, 3 rows, "
-      "series, the report or the printed output cannot be written; existing stays.");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples =
+           {"evaluate --subgraphs A,B,C,D --profile 2022 --starts 4 --out runs/table_2 --report",
+            "evaluate --scenario town --cars 20 --starts 20 --shard 1/4 --out runs/town/1"},
+       .exit_codes =
+           "0 all runs driven, 1 some failed (reasons in runs.csv), 2 invalid input or an output "
+           "that cannot be written; existing stays, 3 all but the report, 130 interrupted"});
   return sweep;
 }
 
@@ -260,12 +276,13 @@ int main(int argc, char** argv) {
       "evaluate"};
   Choices choices;
   CLI::Option* sweep = declare(app, choices);
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, kExitNotWritten)) return *code;
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   choices.is_sweep = sweep->count() > 0;
   choices.writes_series = choices.writes_series || choices.makes_report;
   choices.drive.shard = shard_of(choices.shard).value_or(hlc::apps::Shard{});
   // A failed run is recorded; any other error concerns an output.
-  return hlc::apps::exit_code_of(
-      "evaluate", [&] { return run(choices, hlc::apps::command_line(argc, argv)); },
-      kExitNotWritten);
+  const int code = hlc::apps::exit_code_of(
+      "evaluate", [&] { return run(choices, hlc::apps::command_line(argc, argv)); });
+  if (code > 1 || !choices.makes_report) return code;
+  return hlc::apps::make_report("evaluate", choices.out) ? code : hlc::apps::kExitNoReport;
 }

@@ -20,6 +20,7 @@
 #include "hlc_bridge/record/explanation_file.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/plot/search_page.hpp"
 #include "planner/scenario/problem_dump.hpp"
@@ -143,7 +144,7 @@ void check_choices(const hlc::record::RunFolder& run, const Choices& choices) {
   const std::vector<std::uint8_t>& ids = run.facts.vehicle_ids;
   if (std::ranges::find(ids, choices.vehicle) == ids.end()) {
     throw std::invalid_argument(
-        fmt::format("--vehicle = {}, must be one of {}", choices.vehicle, fmt::join(ids, ", ")));
+        fmt::format("--vehicle_id = {}, must be one of {}", choices.vehicle, fmt::join(ids, ", ")));
   }
   if (report_of(run.rows, choices) != nullptr) return;
   throw std::invalid_argument(
@@ -224,6 +225,8 @@ int explain(const Choices& choices) {
     std::cerr << "explain: " << choices.run.string() << ": " << line << '\n';
   }
   if (!choices.all) return explain_step(std::move(run), choices);
+  const hlc::apps::Interruption interruption(
+      "explain", "nothing is written yet: the same command begins from the start");
   const std::size_t count = hlc::apps::explain_all(std::move(run));
   const char* const why_none =
       count > 0 ? "" : " (no vehicle waited, kept its plan, missed others or braked to a stand)";
@@ -244,11 +247,13 @@ int main(int argc, char** argv) {
       "is the step's problem searched again.",
       "explain"};
   Choices choices;
-  app.add_option("RUN,--run", choices.run, "run folder")->required();
-  CLI::Option* const vehicle = app.add_option("--vehicle", choices.vehicle, "id")
-                                   ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
+  hlc::apps::declare_run(app, choices.run);
+  CLI::Option* const vehicle =
+      app.add_option("--vehicle_id", choices.vehicle, "required without --all")
+          ->check(hlc::apps::whole(1, hlc::kMaxVehicleId));
   CLI::Option* const step =
-      app.add_option("--step", choices.step, "from 0, as on the page and in steps.csv")
+      app.add_option("--step", choices.step,
+                     "from 0, as on the page and in steps.csv; required without --all")
           ->check(hlc::apps::whole(0, 100000));
   CLI::Option* const all = app.add_flag(
       "--all", choices.all,
@@ -256,22 +261,28 @@ int main(int argc, char** argv) {
       "miss others, or brakes to a stand, by searches alone (the run is driven once; some seconds "
       "for 20 cars and 150 steps), writes explanations.csv into the run folder and its run.html "
       "again with them");
-  CLI::Option* const problems = app.add_option(
-      "--problems", choices.problems, "folder for the step's planning problems, for plan_problem");
+  CLI::Option* const problems =
+      app.add_option("--dump_problems", choices.problems,
+                     "folder for the step's planning problems, for plan_problem; default: none");
+  problems->type_name("DIR");
   CLI::Option* const tree = app.add_flag(
       "--tree", choices.tree,
       "also shows what was searched in the step, vertex by vertex: searches it again with the "
       "plain engine and writes searches/vehicle_N_step_K.html into the run folder, and its "
       "run.html again with it");
   all->excludes(vehicle)->excludes(step)->excludes(problems)->excludes(tree);
-  app.footer(
-      "Examples:\n  explain runs/one --vehicle 3 --step 57 --tree\n  explain runs/one --all\n"
-      "Exit codes: 0 success, 2 invalid input or an output that cannot be written.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
+  hlc::apps::declare_help_end(
+      app, {.examples = {"explain runs/my_run --vehicle_id 3 --step 57 --tree",
+                         "explain runs/my_run --all"},
+            .exit_codes =
+                "0 success, 2 invalid input or an output that cannot be written, 130 interrupted"});
+  if (const auto code = hlc::apps::parse_flags(
+          app, argc, argv, {{"--vehicle", "--vehicle_id"}, {"--problems", "--dump_problems"}})) {
+    return *code;
+  }
   if (!choices.all && (vehicle->empty() || step->empty())) {
-    std::cerr << "explain: --vehicle and --step must be given, or --all\n";
+    std::cerr << "explain: --vehicle_id and --step must be given, or --all\n";
     return hlc::kExitBadInput;
   }
-  return hlc::apps::exit_code_of(
-      "explain", [&] { return explain(choices); }, hlc::kExitBadInput);
+  return hlc::apps::exit_code_of("explain", [&] { return explain(choices); });
 }

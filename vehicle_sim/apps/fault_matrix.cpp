@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
 #include "planner/common/text_file.hpp"
@@ -27,7 +28,6 @@ using hlc::closed_loop::FaultMatrix;
 using hlc::closed_loop::MatrixRun;
 using hlc::closed_loop::MatrixVerdict;
 
-constexpr int kBadInput = 2;  ///< exit code; 1 is for cells that failed
 constexpr std::uint64_t kMostRuns = 10'000;
 constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
 constexpr const char* kBegin = "<!-- fault_matrix -->\n";
@@ -52,7 +52,7 @@ void write_report(const std::filesystem::path& file, const std::string& report) 
     const std::size_t begin = before.find(kBegin);
     const std::size_t end = before.find(kEnd);
     if (begin == std::string::npos || end == std::string::npos || end < begin) {
-      throw std::invalid_argument("--report = " + file.string() +
+      throw std::invalid_argument("--table = " + file.string() +
                                   ", must be a new file or hold the marks of the table");
     }
     text = before.substr(0, begin) + kBegin + report + before.substr(end);
@@ -81,6 +81,9 @@ class Matrix {
   const std::vector<CellResult>& drive() {
     drive_undisturbed();
     const std::size_t count = results_.size() * choices_.runs;
+    const hlc::apps::Interruption interruption(
+        "fault_matrix",
+        "no table is written yet: the same command begins from the start, --cells selects some");
     const hlc::apps::ProgressLine progress("run", count);
     hlc::apps::run_parallel(
         count, choices_.jobs,
@@ -173,11 +176,14 @@ int main(int argc, char** argv) {
       "Runs of three cars in memory, each with one fault of one process: every role, fault, phase "
       "and kind of run.",
       "fault_matrix");
-  app.footer(
-      "Exit codes: 0 all cells passed, or failed by a known weakness only; 1 a cell failed; 2 bad "
-      "flags or files.");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples = {"fault_matrix --jobs 2",
+                    "fault_matrix --cells \"controller, kill\" --runs 5 --table matrix.md"},
+       .exit_codes = "0 all cells passed, or failed by a known weakness only, 1 a cell failed, 2 "
+                     "invalid input or an output that cannot be written, 130 interrupted"});
   Choices choices;
-  app.add_option("--runs", choices.runs, "of each cell, with a seed each")
+  app.add_option("--runs", choices.runs, "number of runs of each cell, with a seed each")
       ->check(hlc::apps::whole(1, kMostRuns))
       ->capture_default_str();
   app.add_option("--seed", choices.seed, "of the first run; the next ones count on")
@@ -187,14 +193,19 @@ int main(int argc, char** argv) {
       ->check(hlc::apps::whole(1, 256));
   app.add_option("--cells", choices.cells,
                  "only those with this text in their name, as \"controller, kill, run: real time, "
-                 "lab, two rounds\"");
-  app.add_option("--report", choices.report,
+                 "lab, two rounds\"; default: all");
+  app.add_option("--table", choices.report,
                  "Markdown file for the table; of one with the marks of the table only that is "
-                 "replaced");
-  app.add_option("--trace", choices.trace, "file for what happens, of one cell and run");
+                 "replaced; default: none")
+      ->type_name("FILE");
+  app.add_option("--trace", choices.trace,
+                 "file for what happens, of one cell and run; default: none")
+      ->type_name("FILE");
   app.add_option("--scenario_folder", choices.scenario_folder,
-                 "folder of the scenarios (default: scenarios beside the program)");
-  if (const std::optional<int> code = hlc::apps::parse_flags(app, argc, argv)) return *code;
-  return hlc::apps::exit_code_of(
-      "fault_matrix", [&] { return drive(choices); }, kBadInput);
+                 "folder of the scenarios (default: scenarios beside the program)")
+      ->type_name("DIR");
+  if (const auto code = hlc::apps::parse_flags(app, argc, argv, {{"--report", "--table"}})) {
+    return *code;
+  }
+  return hlc::apps::exit_code_of("fault_matrix", [&] { return drive(choices); });
 }

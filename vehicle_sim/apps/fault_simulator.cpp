@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/interruption.hpp"
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
@@ -31,7 +32,6 @@ using hlc::closed_loop::FaultKind;
 using hlc::closed_loop::FaultRunResult;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kBadInput = 2;  ///< exit code; 1 is for violations
 constexpr std::uint64_t kTwice = 50;
 constexpr std::uint64_t kLargestSeed = 1'000'000'000'000;
 
@@ -150,6 +150,8 @@ int campaign(const Choices& choices, const std::string& flags) {
   std::mutex mutex;
   const Clock::time_point begin = Clock::now();
   {
+    const hlc::apps::Interruption interruption(
+        "fault_simulator", "seeds that fail are printed above; --seed goes on from a later one");
     const hlc::apps::ProgressLine progress("run", choices.runs);
     hlc::apps::run_parallel(
         choices.runs, choices.jobs,
@@ -222,7 +224,8 @@ void add_campaign_flags(CLI::App& app, Choices& choices) {
       ->delimiter(',')
       ->check(hlc::apps::among(fault_names()));
   app.add_option("--scenario_folder", choices.campaign.scenario_folder,
-                 "folder of the scenarios (default: scenarios beside the program)");
+                 "folder of the scenarios (default: scenarios beside the program)")
+      ->type_name("DIR");
 }
 
 }  // namespace
@@ -230,7 +233,11 @@ void add_campaign_flags(CLI::App& app, Choices& choices) {
 int main(int argc, char** argv) {
   CLI::App app("Runs in memory with faults that a seed draws, checked in every tick.",
                "fault_simulator");
-  app.footer("Exit codes: 0 nothing is violated, 1 something is, 2 bad flags or files.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"fault_simulator --cars 3 --runs 200 --seed 1",
+                         "fault_simulator --cars 3 --replay 17 --trace trace.txt"},
+            .exit_codes = "0 nothing is violated, 1 something is, 2 invalid input or an output "
+                          "that cannot be written, 130 interrupted"});
   Choices choices;
   std::vector<std::string> keep;
   add_campaign_flags(app, choices);
@@ -243,23 +250,25 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", choices.jobs, "threads (default: as many as cores)")
       ->check(hlc::apps::whole(1, 256));
   CLI::Option* const replayed =
-      app.add_option("--replay", choices.replay, "only the run of this seed")
+      app.add_option("--replay", choices.replay, "only the run of this seed; default: all runs")
           ->check(hlc::apps::whole(0, kLargestSeed));
-  app.add_option("--keep", keep, "only these of its faults, from 0; or none")
+  app.add_option("--keep", keep, "only these of its faults, from 0; or none; default: all")
       ->delimiter(',')
       ->needs(replayed)
       ->check(hlc::apps::whole(0, 9999) | hlc::apps::among({"none"}));
   app.add_option("--out", choices.out,
                  "folder for the records of every run, OUT/SEED, without the ticks in which a "
-                 "vehicle is out of its controller's reach; for check_run.py");
-  app.add_option("--trace", choices.trace, "file for what happens")->needs(replayed);
+                 "vehicle is out of its controller's reach; for check_run.py; default: none")
+      ->type_name("DIR");
+  app.add_option("--trace", choices.trace, "file for what happens; default: none")
+      ->needs(replayed)
+      ->type_name("FILE");
   if (const std::optional<int> code = hlc::apps::parse_flags(app, argc, argv)) return *code;
   const auto run = [&] {
     hlc::apps::check_each_once("--faults", choices.faults);
     if (!choices.out.empty()) create_folder(choices.out);
     if (choices.campaign.scenario_folder.empty()) {
-      choices.campaign.scenario_folder =
-          std::filesystem::read_symlink("/proc/self/exe").parent_path() / "scenarios";
+      choices.campaign.scenario_folder = hlc::apps::shipped_scenarios();
     }
     choices.campaign.priorities = hlc::coordination::priority_strategy(choices.priorities);
     choices.campaign.kinds = hlc::closed_loop::fault_kinds_of(choices.faults);
@@ -269,5 +278,5 @@ int main(int argc, char** argv) {
     }
     return choices.replay ? replay(choices) : campaign(choices, flags_of(choices));
   };
-  return hlc::apps::exit_code_of("fault_simulator", run, kBadInput);
+  return hlc::apps::exit_code_of("fault_simulator", run);
 }

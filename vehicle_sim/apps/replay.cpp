@@ -152,7 +152,7 @@ bool is_same_again(const hlc::record::RunFolder& recorded, std::uint64_t until,
 /// Of a run in real time: each controller by itself, on what was recorded.
 int replay_messages(const hlc::record::RunFolder& recorded, const Choices& choices) {
   if (choices.from) {
-    throw std::invalid_argument("--from: " + choices.run.string() +
+    throw std::invalid_argument("--from_step: " + choices.run.string() +
                                 " was driven in real time, must be a run in logical time");
   }
   const hlc::closed_loop::RecordedMessages messages = hlc::apps::read_recorded_messages(recorded);
@@ -215,31 +215,38 @@ int replay(const Choices& choices) {
 int main(int argc, char** argv) {
   CLI::App app{
       "Drives a run again in one process. In logical time the same run must give the same "
-      "trace_sha256; with --from and --set it is a \"what if\" with a run folder of its own. In "
+      "trace_sha256; with --from_step and --set it is a \"what if\" with a run folder of its own. "
+      "In "
       "real time every controller plans again on the messages in run.mcap.",
       "replay"};
   Choices choices;
-  app.add_option("RUN,--run", choices.run, "run folder")->required();
-  app.add_option("--until", choices.until, "only the steps before this one")
+  hlc::apps::declare_run(app, choices.run);
+  app.add_option("--until_step", choices.until, "only the steps before this one; default: all")
       ->check(hlc::apps::whole(1, 100000));
   CLI::Option* const from =
-      app.add_option("--from", choices.from, "step from which something is different; from 0")
+      app.add_option("--from_step", choices.from,
+                     "from which something is different; from 0; default: nothing is")
           ->check(hlc::apps::whole(0, 100000));
-  app.add_option("--set", choices.set,
-                 std::string("what is different then; may be given several times:\n") +
-                     hlc::closed_loop::kChangeForms)
+  app.add_option(
+         "--set", choices.set,
+         std::string("what is different then, default: nothing; may be given several times:\n") +
+             hlc::closed_loop::kChangeForms)
       ->needs(from)
       ->allow_extra_args(false);
   app.add_option("--out", choices.out,
                  "folder of the fork, new or empty; default: the run's name with _from_STEP")
-      ->needs(from);
-  app.footer(
-      "Example: what if car 2 had gone first?\n"
-      "  replay runs/one --from 40 --set priorities=2\n"
-      "Exit codes: 0 the same run, or a fork was driven; 1 the replay differs from the record, or "
-      "the record ends early without a reason; 2 invalid input or an output that cannot be "
-      "written.");
-  if (const auto code = hlc::apps::parse_flags(app, argc, argv, hlc::kExitBadInput)) return *code;
-  return hlc::apps::exit_code_of(
-      "replay", [&] { return replay(choices); }, hlc::kExitBadInput);
+      ->needs(from)
+      ->type_name("DIR");
+  hlc::apps::declare_help_end(
+      app,
+      {.examples = {"replay runs/my_run", "replay runs/my_run --from_step 40 --set priorities=2"},
+       .exit_codes = "0 the same run, or a fork was driven, 1 the replay differs from the record, "
+                     "or the record ends early without a reason, 2 invalid input or an output that "
+                     "cannot be written",
+       .notes = "The second example: what if car 2 had gone first?"});
+  if (const auto code = hlc::apps::parse_flags(
+          app, argc, argv, {{"--from", "--from_step"}, {"--until", "--until_step"}})) {
+    return *code;
+  }
+  return hlc::apps::exit_code_of("replay", [&] { return replay(choices); });
 }

@@ -37,14 +37,16 @@ struct Flags {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  app.add_option("--vehicle_id,--vehicle_ids", flags.vehicle_ids,
+  app.add_option("--vehicle_ids,--vehicle_id", flags.vehicle_ids,
                  "1 ... 30; several, such as 1,2, are one process")
       ->delimiter(',')
       ->required()
       ->check(hlc::apps::vehicle_id_range());
   flags.network.declare(app);
   app.add_option("--pose", flags.pose,
-                 "x,y,yaw at the start [m, m, rad], of each vehicle; needed for ids above 23")
+                 "x,y,yaw at the start [m, m, rad], of each vehicle; default: where the lab's "
+                 "simulated vehicle of its id stands, "
+                 "required for ids above 23")
       ->delimiter(',');
   app.add_option("--noise_seed", flags.noise_seeds,
                  "measure the pose with the lab's noise (2 mm, 0.01 rad), one seed for each "
@@ -61,22 +63,26 @@ void declare(CLI::App& app, Flags& flags) {
       ->check(CLI::IsMember({"exact", "lab"}));
   app.add_option("--guests", flags.guests,
                  "scenario file, whose guests start and drive as it states; default: there are "
-                 "none");
+                 "none")
+      ->type_name("FILE");
   CLI::Option* const record =
       app.add_option("--record", flags.record,
                      "CSV file for the true motion, one row per tick; with several vehicles one "
-                     "each: {id} stands for the number");
+                     "each: {id} stands for the number; default: none")
+          ->type_name("FILE");
   app.add_flag("--append_record", flags.append_record,
                "append to the record of a process that ended before")
       ->needs(record);
   app.add_flag("--keep_running", flags.keep_running,
                "listen again after a stop, as the lab's vehicle does");
-  app.footer(
-      "In real time the car waits for commands without a time limit, as the lab's does "
-      "(--startup_timeout_s counts in logical time).\n"
-      "Exit codes: 0 success, 1 success, but --record or --messages is incomplete, 2 invalid "
-      "input, 3 startup "
-      "timeout, 4 the lab control died.");
+  hlc::apps::declare_help_end(
+      app, {.examples = {"vehicle_sim --vehicle_ids 1 --dds_domain 40 --transport loopback",
+                         "vehicle_sim --vehicle_ids 1,2 --simulated_time true --noise_seed 1,2 "
+                         "--record vehicle_{id}.csv"},
+            .exit_codes = "0 success, 1 success, but --record or --messages_folder is incomplete, "
+                          "2 invalid input, 3 startup timeout, 4 the lab control died",
+            .notes = "In real time the car waits for commands without a time limit, as the lab's "
+                     "does (--startup_timeout_s counts in logical time)."});
 }
 
 /// The part of a list with `size` values for each of `vehicles` that belongs to vehicle `index`.

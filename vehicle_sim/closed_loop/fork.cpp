@@ -188,7 +188,8 @@ void check_coordination(const Fork::Change& change, const scenario::Scenario& sc
 void check_without(const Fork& fork, std::size_t num_gone, std::size_t num_vehicles) {
   if (fork.from == 0) {
     throw std::invalid_argument(
-        "--from = 0, must be at least 1 with --set without=: a scenario without the vehicle is "
+        "--from_step = 0, must be at least 1 with --set without=: a scenario without the vehicle "
+        "is "
         "another one");
   }
   if (num_gone == num_vehicles) {
@@ -210,7 +211,7 @@ void check_forks(const std::vector<Fork>& forks, const scenario::Scenario& scena
   for (const Fork& fork : in_order) {
     if (fork.from >= steps) {
       throw std::invalid_argument(
-          fmt::format("--from = {}, must be less than the run's {} steps", fork.from, steps));
+          fmt::format("--from_step = {}, must be less than the run's {} steps", fork.from, steps));
     }
     for (const Fork::Change& change : fork.changes) {
       check_is_there(change, gone);

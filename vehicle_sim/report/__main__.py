@@ -6,7 +6,7 @@ from pathlib import Path
 
 from report.errors import InputError
 from report.files import replace
-from report.flags import BAD_INPUT, INTERRUPTED, NOT_WRITABLE, Parser
+from report.flags import BAD_INPUT, INTERRUPTED, Parser
 from report.priorities import Priorities
 from report.results import read_folder
 from report.tables import Page, page_of
@@ -21,7 +21,7 @@ def _parse() -> argparse.Namespace:
         description="Tables, statistics and figures of a folder that evaluate or compare_priorities wrote: "
                     "OUT/report.md is\nthe page, OUT/report/ has the data of every table and the figures (of evaluate "
                     "only if it wrote OUT/series).",
-        epilog="Exit codes: 0 done, 2 invalid input, 3 not writable.")
+        epilog="Exit codes: 0 done, 2 invalid input or not writable.")
     parser.add_argument("folder", metavar="OUT", type=Path, help="with campaign.json, runs.csv and what belongs to "
                                                                  "them")
     return parser.parse_args()
@@ -63,7 +63,7 @@ def main() -> int:
         return BAD_INPUT
     except OSError as error:
         print(f"report: {error.filename}: {error.strerror}, must be writable", file=sys.stderr)
-        return NOT_WRITABLE
+        return BAD_INPUT
     except KeyboardInterrupt:
         print("report: interrupted, the same command goes on", file=sys.stderr)
         return INTERRUPTED

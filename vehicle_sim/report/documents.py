@@ -10,7 +10,7 @@ from pathlib import Path
 from report.document import commands, filled, unfounded
 from report.errors import InputError
 from report.files import replace
-from report.flags import BAD_INPUT, INTERRUPTED, NOT_WRITABLE, Parser
+from report.flags import BAD_INPUT, INTERRUPTED, Parser
 from report.page_table import page_table
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -24,8 +24,8 @@ def _parse() -> argparse.Namespace:
         prog="documents",
         description="Makes the tables of documents again: drives each command `build/release/bin/... --out runs/NAME` in\n"
                     "them, replaces each table by that of the rows, and names figures in the words that are in no table.",
-        epilog="Exit codes: 0 done, 1 a figure in the words is in no table, or a command failed, 2 invalid input,\n"
-               "3 not writable, or Python's packages cannot be installed, 130 interrupted.")
+        epilog="Exit codes: 0 done, 1 a figure in the words is in no table, or a command failed, 2 invalid input\n"
+               "or not writable, 3 Python's packages cannot be installed, 130 interrupted.")
     parser.add_argument("documents", metavar="DOCUMENT", nargs="*", type=Path, default=DOCUMENTS,
                         help="Markdown; default: EVALUATION.md and RECONFIGURATION.md of vehicle_sim (10 minutes)")
     parser.add_argument("--out", metavar="FOLDER", type=Path, default=ROOT / "runs" / "documents",
@@ -72,7 +72,7 @@ def main() -> int:
         return BAD_INPUT
     except OSError as error:
         print(f"documents: {error.filename}: {error.strerror}, must be writable", file=sys.stderr)
-        return NOT_WRITABLE
+        return BAD_INPUT
     except KeyboardInterrupt:
         print("documents: interrupted, go on with --resume", file=sys.stderr)
         return INTERRUPTED

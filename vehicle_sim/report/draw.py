@@ -34,7 +34,7 @@ def draw(kind: str, data: Path, out: Path) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """0; 2 bad input, 3 not writable, each after one line."""
+    """0; 2 after one line: bad input, or not writable."""
     parser = argparse.ArgumentParser(prog="draw.sh", description="Draws what a program of the planner wrote.")
     parser.add_argument("kind", choices=sorted(KINDS))
     parser.add_argument("data", type=Path, help="JSON")
@@ -47,7 +47,7 @@ def main(arguments: list[str]) -> int:
         return 2
     except OSError as error:
         print(f"draw.sh: {choices.out}: {error.strerror}, must be writable", file=sys.stderr)
-        return 3
+        return 2
     return 0
 
 

@@ -10,11 +10,22 @@ Draws what a program of the planner wrote (build_automaton, pareto_front, plan_p
   KIND  automaton, pareto, problem, scenario or sheet
   DATA  JSON
   OUT   SVG, PDF or PNG by its extension, otherwise SVG
-Exit codes: 0 drawn, 2 invalid input, 3 Python's packages are missing, or OUT cannot be written
+Examples:
+  draw.sh scenario scenario.json scenario.svg
+  draw.sh pareto front.json front.pdf
+Exit codes: 0 drawn, 2 invalid input or OUT cannot be written, 3 Python's packages are missing
 TEXT
 }
 
-[[ ${1:-} != -h && ${1:-} != --help ]] || { usage; exit 0; }
+case "${1-}" in
+  -h | --help) usage; exit 0 ;;
+  --version)
+    [[ ! -e $here/../../launch_scripts/version.sh ]] || exec "$here/../../launch_scripts/version.sh" draw.sh
+    version=$("$here/../show_scenario" --version)
+    echo "draw.sh ${version#* }"
+    exit 0 ;;
+  -*) echo "draw.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
+esac
 (($# == 3)) || { echo "draw.sh: $# values, must be KIND DATA OUT (see --help)" >&2; exit 2; }
 if [[ -e $here/../../launch_scripts/python_environment.sh ]]; then
   make=$here/../../launch_scripts/python_environment.sh environment=$here/../../build/report_environment

@@ -2,7 +2,7 @@
 
 import argparse
 
-BAD_INPUT, NOT_WRITABLE, INTERRUPTED = 2, 3, 130
+BAD_INPUT, INTERRUPTED = 2, 130  # an output that cannot be written is bad input, too
 
 
 class Parser(argparse.ArgumentParser):

@@ -9,7 +9,10 @@ usage: report.sh OUT
   OUT  a folder of evaluate or compare_priorities, with campaign.json, runs.csv and what belongs to them
 Writes OUT/report.md, the page, and OUT/report/ with the data of every table and the figures.
 Python's packages are installed once, into build/report_environment.
-Exit codes: 0 done, 2 invalid input, 3 not writable, or Python's packages cannot be installed
+Examples:
+  report.sh runs/table_2
+  report.sh runs/priorities
+Exit codes: 0 done, 2 invalid input or not writable, 3 Python's packages cannot be installed, 130 interrupted
 TEXT
 }
 

@@ -144,7 +144,7 @@ class DrawRun : public testing::Test {
   /// @return path of the picture at kAt_s
   [[nodiscard]] fs::path drawn(const std::string& name, const std::string& flags = "") const {
     const Outcome outcome =
-        draw(fmt::format("--at {} --out {} {}", kAt_s, file(name).string(), flags));
+        draw(fmt::format("--at_s {} --out {} {}", kAt_s, file(name).string(), flags));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_EQ(outcome.output, "");
     return file(name);
@@ -175,7 +175,7 @@ TEST_F(DrawRun, ConflictZonesOfARunWithRightOfWayAreInThePictureByTheirNumbers) 
       source_folder() + "/launch_scripts/scenarios --out " + file("runs").string());
   ASSERT_EQ(driven.exit_code, 0) << driven.output;
   const Outcome outcome =
-      run_program(fmt::format("draw_run {} --at 0.5 --out {}",
+      run_program(fmt::format("draw_run {} --at_s 0.5 --out {}",
                               (file("runs") / "runs" / "0").string(), file("frame.svg").string()));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(read_text(file("frame.svg")), HasSubstr("zone 1"));
@@ -206,7 +206,7 @@ TEST_F(DrawRun, TheCarsAreInBothKindsOfPicturesWhereTheyDrove) {
 
 TEST_F(DrawRun, APictureHasTimeAndStatesInWords) {
   if (!can_draw()) GTEST_SKIP() << "no chromium or no ffmpeg on this machine";
-  const std::string svg = read_text(drawn("frame.svg", "--follow 2 --dark"));
+  const std::string svg = read_text(drawn("frame.svg", "--vehicle_id 2 --dark"));
   EXPECT_THAT(svg, StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1280\""));
   for (const char* words : {">paper_three_cars<", ">1.30 s<", ">red: drives, 0.", ">planned<"}) {
     EXPECT_THAT(svg, HasSubstr(words));
@@ -224,8 +224,9 @@ TEST_F(DrawRun, APdfIsOnePageOfTheAskedSize) {
 TEST_F(DrawRun, AVideoHasTheAskedSizePicturesAndDuration) {
   if (!can_draw()) GTEST_SKIP() << "no chromium or no ffmpeg on this machine";
   for (const char* name : {"run.mp4", "run.gif"}) {
-    const Outcome outcome = draw(
-        "--from 0.4 --to 1.4 --speed 0.5 --rate 10 --size 480x320 --video " + file(name).string());
+    const Outcome outcome =
+        draw("--from_s 0.4 --to_s 1.4 --speed 0.5 --rate 10 --size 480x320 --video " +
+             file(name).string());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_EQ(video_facts(file(name)).substr(0, 16), "480,320,20\n2.000") << name;
   }
@@ -255,19 +256,19 @@ TEST_F(DrawRun, FlagsAreRefusedInOneLine) {
   const std::string png = "--out " + file("frame.png").string() + " ";
   const std::string mp4 = "--video " + file("run.mp4").string() + " ";
   const std::vector<std::pair<std::string, std::string>> refused{
-      {"", "--at and --out, or --video must be given"},
-      {"--at 1", "--at requires --out"},
-      {png, "--out requires --at"},
-      {png + mp4 + "--at 1", "--at excludes --video"},
-      {png + "--at 1 --speed 2", "--speed requires --video"},
-      {png + "--at 2.1", "--at = 2.1, must be in 0 ... 2, the run's times"},
-      {png + "--at nan", "--at = nan, must be in 0 ... 2, the run's times"},
-      {"--at 1 --out frame.jpg", "--out = frame.jpg, must end in .png, .svg, .pdf"},
+      {"", "--at_s and --out, or --video must be given"},
+      {"--at_s 1", "--at_s requires --out"},
+      {png, "--out requires --at_s"},
+      {png + mp4 + "--at_s 1", "--at_s excludes --video"},
+      {png + "--at_s 1 --speed 2", "--speed requires --video"},
+      {png + "--at_s 2.1", "--at_s = 2.1, must be in 0 ... 2, the run's times"},
+      {png + "--at_s nan", "--at_s = nan, must be in 0 ... 2, the run's times"},
+      {"--at_s 1 --out frame.jpg", "--out = frame.jpg, must end in .png, .svg, .pdf"},
       {"--video run.avi", "--video = run.avi, must end in .mp4, .gif"},
-      {mp4 + "--from 1 --to 1", "--from = 1, must be < --to = 1"},
-      {mp4 + "--to 3", "--to = 3, must be in 0 ... 2, the run's times"},
+      {mp4 + "--from_s 1 --to_s 1", "--from_s = 1, must be < --to_s = 1"},
+      {mp4 + "--to_s 3", "--to_s = 3, must be in 0 ... 2, the run's times"},
       {mp4 + "--size 641x480", "641x480, must be WIDTHxHEIGHT, even numbers in 320 ... 4096"},
-      {mp4 + "--follow 4", "--follow = 4, must be one of 1, 2, 3"},
+      {mp4 + "--vehicle_id 4", "--vehicle_id = 4, must be one of 1, 2, 3"},
   };
   for (const auto& [flags, line] : refused) {
     const Outcome outcome = draw(flags);
@@ -284,7 +285,7 @@ TEST_F(DrawRun, AMissingProgramIsNamedWithItsPackage) {
   ASSERT_NE(path, nullptr);
   const std::string kept = path;
   ::setenv("PATH", "/nowhere", 1);
-  const Outcome outcome = draw("--at 1 --out " + file("frame.png").string());
+  const Outcome outcome = draw("--at_s 1 --out " + file("frame.png").string());
   ::setenv("PATH", kept.c_str(), 1);
   EXPECT_EQ(outcome.exit_code, kExitNotWritten);
   EXPECT_EQ(outcome.output,

@@ -149,7 +149,7 @@ TEST_F(PageInBrowser, ARunWithoutRightOfWayOffersNoZones) {
 
 TEST_F(PageInBrowser, AReportOfLogicalTimeHasItsExplanationOrTheCommandThatFindsIt) {
   FinishedRun run = sample_run(2, 20);
-  run.how_explained = "explain RUN --vehicle VEHICLE --step STEP";
+  run.how_explained = "explain RUN --vehicle_id VEHICLE --step STEP";
   const json result = result_of(run, R"(
     page.run.take({ kind: "why", vehicle: 2, steps: [[5, 6, "did\n<b>stood</b>"]] });
     page.select(2);
@@ -159,7 +159,7 @@ TEST_F(PageInBrowser, AReportOfLogicalTimeHasItsExplanationOrTheCommandThatFinds
     result.other = row("why");
   )");
   EXPECT_EQ(result.at("explained"), "did\n<b>stood</b>");
-  EXPECT_EQ(result.at("other"), "explain RUN --vehicle 2 --step 7");
+  EXPECT_EQ(result.at("other"), "explain RUN --vehicle_id 2 --step 7");
 }
 
 TEST_F(PageInBrowser, WhatWasSearchedInAStepIsShownOverThePage) {

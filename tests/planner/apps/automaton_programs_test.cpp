@@ -312,8 +312,8 @@ TEST(GenerateMap, WritesAMapAndRefusesWhatIsNoFile) {
   const Outcome outcome = run_program("generate_map --out " + folder.path().string());
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_TRUE(outcome.output.starts_with("generate_map: --out = ")) << outcome.output;
-  EXPECT_EQ(run_program("generate_map --map lab_network --out " + map.string()).exit_code, 0);
-  const Outcome unknown = run_program("generate_map --map lab --out " + map.string());
+  EXPECT_EQ(run_program("generate_map --shape lab_network --out " + map.string()).exit_code, 0);
+  const Outcome unknown = run_program("generate_map --shape lab --out " + map.string());
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.output.find("lab_network"), std::string::npos) << unknown.output;
 }
@@ -328,7 +328,7 @@ TEST(GenerateMap, WritesTownsAndRefusesSizesOutOfBounds) {
     EXPECT_NE(outcome.output.find("must be WxH, each in 1 ... 12"), std::string::npos)
         << outcome.output;
   }
-  EXPECT_EQ(run_program(generate + " --blocks 2x1 --map lab_like").exit_code, 2);
+  EXPECT_EQ(run_program(generate + " --blocks 2x1 --shape lab_like").exit_code, 2);
 }
 
 }  // namespace

@@ -67,8 +67,8 @@ TEST_F(ChooseTrimsProgram, TakesVehicleAndLimitsOfAFileAndSaysWhichLimitsItTook)
         "limits: {acceleration_mps2: 8, steering_rate_radps: 0.4, speed_min_mps: 0, "
         "speed_max_mps: 50, steering_max_rad: 1}\n"
         "notes: of no concern here\n");
-  const Outcome own =
-      run_program("choose_trims " + path("drive.csv") + " --count 3 --config " + path("car.yaml"));
+  const Outcome own = run_program("choose_trims " + path("drive.csv") +
+                                  " --count 3 --configuration " + path("car.yaml"));
   EXPECT_EQ(own.exit_code, 0) << own.output;
   EXPECT_TRUE(
       own.output.starts_with("# limits of car.yaml: 0 ... 50 m/s, +-1 rad; wheelbase 2.5 m\n"))
@@ -120,7 +120,7 @@ TEST_F(ChooseTrimsProgram, BadInputIsOneLineAndCode2) {
   refused(path("reverse.csv"), "never drove forwards");
   write("no_limits.yaml",
         "vehicle: {wheelbase_m: 2.5, rear_axle_to_cg_m: 1.2, length_m: 4, width_m: 1.6}\n");
-  refused(path("stands.csv") + " --config " + path("no_limits.yaml"), "limits is missing");
+  refused(path("stands.csv") + " --configuration " + path("no_limits.yaml"), "limits is missing");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ TEST(ComparePriorities, WritesARowForEachRunStepAndGap) {
   const test::TemporaryFolder folder;
   const std::filesystem::path out = folder / "new" / "priorities";
   const Outcome outcome = run_program("compare_priorities " + kScenarios +
-                                      "circle.yaml --cars 3,4 --strategies random,optimal "
+                                      "circle.yaml --cars 3,4 --priorities random,optimal "
                                       "--steps 6 --max_levels 3 --out " +
                                       out.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -76,14 +76,14 @@ TEST(ComparePriorities, LeavesOutWhatDoesNotSuitTheCoordination) {
 TEST(ComparePriorities, RefusesBadInputInOneLine) {
   for (const std::string& command :
        {std::string("compare_priorities /nowhere.yaml"),
-        "compare_priorities " + kScenarios + "circle.yaml --strategies fastest",
-        "compare_priorities " + kScenarios + "circle.yaml --strategies fca,fca",
+        "compare_priorities " + kScenarios + "circle.yaml --priorities fastest",
+        "compare_priorities " + kScenarios + "circle.yaml --priorities fca,fca",
         "compare_priorities " + kScenarios + "circle.yaml --cars 0",
         "compare_priorities " + kScenarios + "circle.yaml --cars 3,3",
         "compare_priorities " + kScenarios + "circle.yaml --cars 21",
         "compare_priorities " + kScenarios + "circle.yaml --out /proc/rows",
         "compare_priorities " + kScenarios + "circle.yaml --report",
-        "compare_priorities " + kScenarios + "circle.yaml --profile 2022 --strategies optimal",
+        "compare_priorities " + kScenarios + "circle.yaml --profile 2022 --priorities optimal",
         "compare_priorities " + kScenarios + "circle.yaml --profile 2022 --max_levels 2",
         "compare_priorities " + kScenarios + "circle.yaml --fast"}) {
     const Outcome outcome = run_program(command);

@@ -86,8 +86,8 @@ TEST(JointPrograms, BadInputIsOneLineAndExitCode2) {
         "price_of_priority " + kScenario + " --cars 5",
         "price_of_priority " + kScenario + " --budgets 0",
         "price_of_priority " + kScenario + " --fast",
-        "price_of_priority " + kScenario + " --dump " + test::source_folder(),
-        "price_of_priority " + kScenario + " --rows /nowhere/rows.csv",
+        "price_of_priority " + kScenario + " --dump_problems " + test::source_folder(),
+        "price_of_priority " + kScenario + " --table /nowhere/rows.csv",
         std::string("price_of_priority /nowhere.yaml"),
         "price_of_priority " + kLaunch + "scenarios/grid_red_alone.yaml --problems 1 --cars 4x"}) {
     const Outcome outcome = run_program(command);
@@ -102,7 +102,7 @@ TEST(JointPrograms, ThePriceOfPriorityIsThatOfTheDumpedProblems) {
   const std::string dump = (folder / "problems").string();
   const Outcome outcome =
       run_program("price_of_priority " + kScenario + " --problems 12 --seed 4 --budgets 1,100000" +
-                  " --rows " + rows_file + " --dump " + dump);
+                  " --table " + rows_file + " --dump_problems " + dump);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   for (const char* rule : {"constant", "most collisions first", "best of all orders",
                            "and 1 joint expansions", "and 100000 joint expansions"}) {
@@ -126,7 +126,7 @@ TEST(JointPrograms, ThePriceOfPriorityIsThatOfTheDumpedProblems) {
   EXPECT_GT(num_proven, 4U);
   const Outcome again =
       run_program("price_of_priority " + kScenario +
-                  " --problems 12 --seed 4 --budgets 1,100000 --rows " + rows_file + "2");
+                  " --problems 12 --seed 4 --budgets 1,100000 --table " + rows_file + "2");
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_EQ(text_of(rows_file + "2"), text_of(rows_file));
 }

@@ -106,26 +106,28 @@ TEST_F(ParetoFrontProgram, RefusesBadInputInOneLineWithCodeTwoAndLeavesTheFileTh
   };
   const std::string file = test::source_folder() + "/launch_scripts/automata/pareto_example.yaml";
   for (const Bad& bad :
-       {Bad{"", "configuration"},
+       {Bad{"", "CONFIGURATION"},
         Bad{file + " --from 0 0" + out, "--to"},
         Bad{kExample, "--out"},
         Bad{kExample + out + " --colour red", "--colour"},
         Bad{kExample + out + " --points 1", "--points"},
         Bad{kExample + out + " --points many", "--points"},
-        Bad{kExample + out + " --duration 0", "--duration"},
+        Bad{kExample + out + " --duration_s 0", "--duration_s"},
         Bad{kExample + out + " --criteria J1 J9", "J9"},
         Bad{kExample + out + " --criteria J1 J1", "--criteria = J1 J1"},
-        Bad{kExample + out + " --duration 0.1", "needs acceleration 23 m/s^2, must be <= 20 m/s^2"},
+        Bad{kExample + out + " --duration_s 0.1",
+            "needs acceleration 23 m/s^2, must be <= 20 m/s^2"},
         Bad{file + " --from 0 0 --to 9 0" + out,
             "--to = 9 0, must be in 0 ... 3.7 m/s and -0.62 ... 0.62 rad"},
         Bad{file + " --from 0 0.7 --to 1 0" + out, "--from = 0 0.7, must be in"},
         Bad{file + " --from 0 nan --to 1 0" + out, "--from: nan, must be a finite number"},
         Bad{file + " --from 0 0 --to nan 0.62" + out, "--to: nan, must be a finite number"},
         Bad{file + " --from 0 0 --to 1 inf" + out, "--to: inf, must be a finite number"},
-        Bad{kExample + out + " --duration nan", "--duration: nan, must be in 0.001 ... 100"},
-        Bad{kExample + out + " --free_duration 0.2 nan", "--free_duration: nan, must be in"},
-        Bad{kExample + out + " --free_duration 0.3 0.2", "--free_duration = 0.3 0.2, must be MIN"},
-        Bad{kExample + out + " --free_duration 0.1 0.2 --duration 0.2", "--free_duration"},
+        Bad{kExample + out + " --duration_s nan", "--duration_s: nan, must be in 0.001 ... 100"},
+        Bad{kExample + out + " --free_duration_s 0.2 nan", "--free_duration_s: nan, must be in"},
+        Bad{kExample + out + " --free_duration_s 0.3 0.2",
+            "--free_duration_s = 0.3 0.2, must be MIN"},
+        Bad{kExample + out + " --free_duration_s 0.1 0.2 --duration_s 0.2", "--free_duration_s"},
         Bad{kExample + out + " --plot " + path("front.csv"), "--plot = "},
         Bad{kExample + out + " --plot \"\"", "--plot = , must be"},
         Bad{kExample + " --out " + path("pipe"), "must be a new or a regular file"},
@@ -147,7 +149,7 @@ TEST_F(ParetoFrontProgram, AFreeDurationIsChosenWithinItsBoundsAndTold) {
   const DeployedProgram program("pareto_front");
   const auto [code, output] =
       program.run(kExample +
-                  " --intervals 10 --points 4 --criteria travel_time J2 --free_duration 0.15 0.4 "
+                  " --intervals 10 --points 4 --criteria travel_time J2 --free_duration_s 0.15 0.4 "
                   "--out " +
                   path("front.csv"));
   ASSERT_EQ(code, 0) << output;

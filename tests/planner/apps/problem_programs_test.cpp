@@ -264,7 +264,7 @@ TEST_F(ProblemPrograms, ABudgetIsProposedAsANumberForTheScenario) {
 }
 
 TEST_F(ProblemPrograms, TheOmplExampleComparesPlannersAndWritesOnlyWhereItIsTold) {
-  const std::string command = "ompl_example " + kShipped + " --seconds 0.02 --runs 2";
+  const std::string command = "ompl_example " + kShipped + " --time_s 0.02 --runs 2";
   const Outcome outcome = run_program(command);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   for (const char* planner :
@@ -277,11 +277,11 @@ TEST_F(ProblemPrograms, TheOmplExampleComparesPlannersAndWritesOnlyWhereItIsTold
   EXPECT_GT(fs::file_size(log), 1000U);
   EXPECT_EQ(run_program("ompl_example /nowhere.json").exit_code, 2);
   EXPECT_EQ(run_program(command + " --log " + (folder_ / "missing/log").string()).exit_code, 2);
-  EXPECT_EQ(run_program("ompl_example " + kShipped + " --seconds nan").exit_code, 2);
+  EXPECT_EQ(run_program("ompl_example " + kShipped + " --time_s nan").exit_code, 2);
 }
 
 TEST_F(ProblemPrograms, TheOmplExampleSaysWhatItsPlansAreAndWhatPlannerDataHolds) {
-  const std::string command = "ompl_example --seconds 0.02 --runs 1 ";
+  const std::string command = "ompl_example --time_s 0.02 --runs 1 ";
   const Outcome outcome = run_program(command + kShipped);
   for (const char* text : {" optimal\n",
                            "PlannerData of this planner, branch_and_bound: 9 vertices, "
@@ -319,7 +319,7 @@ TEST_F(ProblemPrograms, TheOmplExampleEndsAlsoWhenASearchDoesNot) {
   problem << "[[[-99, -99], [99, -99], [99, 99], [-99, 99]]]]}";
   problem.close();
   const Outcome outcome =
-      run_program("ompl_example --seconds 0.02 --runs 1 " + (folder_ / "endless.json").string());
+      run_program("ompl_example --time_s 0.02 --runs 1 " + (folder_ / "endless.json").string());
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.output, HasSubstr("branch_and_bound alone: more than 0.02 s\n"));
   EXPECT_THAT(outcome.output, HasSubstr("branch_and_bound: 0 vertices, 0 edges\n"));

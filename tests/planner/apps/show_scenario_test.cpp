@@ -25,7 +25,7 @@ TEST(ShowScenario, DrawsTheScenarioWhereAskedTo) {
   EXPECT_THAT(done.output, HasSubstr("green"));
   EXPECT_EQ(program.kind(), "scenario");
   EXPECT_EQ(program.drawn()["vehicles"][2]["name"], "green");
-  EXPECT_EQ(program.run("--scenario " + kScenario + " --starts").exit_code, 0);
+  EXPECT_EQ(program.run("--scenario " + kScenario + " --print_starts").exit_code, 0);
   EXPECT_EQ(program.kind(), "sheet");
 }
 

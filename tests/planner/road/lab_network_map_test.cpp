@@ -17,7 +17,7 @@ TEST(LabNetworkMap, ShippedFileIsWhatTheGeneratorMakes) {
   const std::string shipped = read_file(kSourceFolder / "launch_scripts/maps/lab_network.xml");
   EXPECT_LT(shipped.size(), 300'000U);
   EXPECT_TRUE(shipped == to_commonroad_xml(lab_network_map()))
-      << "launch_scripts/maps/lab_network.xml is out of date: generate_map --map lab_network "
+      << "launch_scripts/maps/lab_network.xml is out of date: generate_map --shape lab_network "
          "--out makes it";
 }
 

@@ -64,7 +64,7 @@ TEST_P(EachStrategy, LeadsToTheSameStepsInTwoRoundsAndOneAfterTheOther) {
 }
 
 TEST_P(EachStrategy, NeverLeadsToPlansThatMeetWhateverIsLost) {
-  for (std::uint64_t seed = 0; seed < test::num_seeds(5); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_costly_seeds(5); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     std::bernoulli_distribution is_lost(0.02 + 0.03 * static_cast<double>(seed));
@@ -117,7 +117,7 @@ void fix(const Rollout& rollout, const std::vector<VehicleId>& order) {
 // kept plan was based.
 TEST_P(EachThatComparesPlans, KeepsThePlansThatItsOrderLeadsToWhateverIsLost) {
   std::size_t other_orders = 0;
-  for (std::uint64_t seed = 0; seed < test::num_seeds(6); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_costly_seeds(6); ++seed) {
     const auto is_lost = [seed](const controller::Delivery& one) {
       return seed % 2 == 1 && one.kind == controller::MessageKind::kPrediction &&
              (one.from.value * 7U + one.to.value * 3U + one.step.value + seed) % 4 == 0;

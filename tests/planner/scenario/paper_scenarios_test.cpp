@@ -148,7 +148,7 @@ TEST_P(PaperScenario, FromRandomStartsAtMostTwoPercentOfTheStepsAreFallbacks) {
   const Scenario shipped = read("paper_three_cars");
   std::size_t fallbacks = 0;
   std::size_t steps = 0;
-  for (unsigned seed = 0; seed < test::num_seeds(12); ++seed) {
+  for (unsigned seed = 0; seed < test::num_costly_seeds(12); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     Scenario scenario = shipped;

@@ -45,7 +45,7 @@ std::vector<PlanningWeight> random_weights(std::mt19937_64& random) {
 TEST(EdgeCosts, PlansOfAllEnginesCostLeastWithTheManeuversOwnCriteria) {
   std::size_t feasible = 0;
   std::size_t other_plans = 0;
-  const std::uint64_t problems = test::num_seeds(150);
+  const std::uint64_t problems = test::num_costly_seeds(150);
   for (std::uint64_t seed = 0; seed < problems; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
@@ -121,7 +121,7 @@ double least_sum(const EdgeCosts& costs, const automaton::Subgraph& subgraph, Tr
 }
 
 TEST(EdgeCosts, WhatTheRestCostsAtLeastIsExactAndNeverTooMuch) {
-  for (std::uint64_t seed = 0; seed < test::num_seeds(5); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::num_costly_seeds(5); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     const automaton::Subgraph subgraph = make_subgraph(random);

@@ -73,14 +73,14 @@ void for_each_case(std::uint64_t num_seeds, const std::function<void(const Case&
 }
 
 TEST(RecordedSearch, RecordingChangesNeitherTheResultNorItsCounts) {
-  for_each_case(test::num_seeds(100), [](const Case& c) {
+  for_each_case(test::num_costly_seeds(100), [](const Case& c) {
     BestFirstSearch engine(c.subgraph, c.reachable, c.options);
     test::expect_same(c.recorded.result, engine.search(c.problem, never_stop));
   });
 }
 
 TEST(RecordedSearch, EveryVertexHasOneFateAndTheCountsAreTheEngines) {
-  for_each_case(test::num_seeds(100), [](const Case& c) {
+  for_each_case(test::num_costly_seeds(100), [](const Case& c) {
     std::size_t generated = 0;
     std::array<std::size_t, kFates> fates{};
     for (const DepthCounts& depth : counts_by_depth(c.recorded.tree)) {
@@ -101,7 +101,7 @@ TEST(RecordedSearch, EveryVertexHasOneFateAndTheCountsAreTheEngines) {
 
 TEST(RecordedSearch, OnlyExpandedVerticesHaveChildrenAndCollisionsMeetWhatTheyName) {
   std::size_t collisions = 0;
-  for_each_case(test::num_seeds(100), [&collisions](const Case& c) {
+  for_each_case(test::num_costly_seeds(100), [&collisions](const Case& c) {
     const std::vector<TreeVertex>& vertices = c.recorded.tree.vertices;
     for (std::size_t id = 1; id < vertices.size(); ++id) {
       const TreeVertex& vertex = vertices[id];
@@ -117,7 +117,7 @@ TEST(RecordedSearch, OnlyExpandedVerticesHaveChildrenAndCollisionsMeetWhatTheyNa
       collisions += is_dropped ? 1U : 0U;
     }
   });
-  EXPECT_GT(collisions, 100U);
+  EXPECT_GT(collisions, 100U / test::kThinning);
 }
 
 TEST(RecordedSearch, AnObstructionIsTheFirstAreaThatIsMet) {
@@ -135,7 +135,7 @@ TEST(RecordedSearch, AnObstructionIsTheFirstAreaThatIsMet) {
 
 TEST(RecordedSearch, WhatIsRuledOutByTheBoundCostsNoLessThanThePlanAndWhatIsExpandedNoMore) {
   std::size_t ruled_out = 0;
-  for_each_case(test::num_seeds(100), [&ruled_out](const Case& c) {
+  for_each_case(test::num_costly_seeds(100), [&ruled_out](const Case& c) {
     const SearchResult& result = c.recorded.result;
     for (const TreeVertex& vertex : c.recorded.tree.vertices) {
       if (vertex.fate == Fate::kBound) {
@@ -151,11 +151,11 @@ TEST(RecordedSearch, WhatIsRuledOutByTheBoundCostsNoLessThanThePlanAndWhatIsExpa
       }
     }
   });
-  EXPECT_GT(ruled_out, 1000U);
+  EXPECT_GT(ruled_out, 1000U / test::kThinning);
 }
 
 TEST(RecordedSearch, ThePathOfThePlanIsInTheTreeAndItsCostIsThePlans) {
-  for_each_case(test::num_seeds(100), [](const Case& c) {
+  for_each_case(test::num_costly_seeds(100), [](const Case& c) {
     if (c.recorded.result.status != SearchStatus::kOptimal || !c.problem.incumbent.empty()) return;
     const std::vector<TreeVertex>& vertices = c.recorded.tree.vertices;
     const std::vector<std::uint32_t> path =
@@ -171,7 +171,7 @@ TEST(RecordedSearch, ThePathOfThePlanIsInTheTreeAndItsCostIsThePlans) {
 }
 
 TEST(RecordedSearch, EveryPlanIsRuledOutByExactlyOneVertex) {
-  for_each_case(test::num_seeds(100), [](const Case& c) {
+  for_each_case(test::num_costly_seeds(100), [](const Case& c) {
     const PlanCounts counts = count_plans(c.recorded.tree, c.subgraph, c.problem);
     ASSERT_EQ(std::accumulate(counts.fates.begin(), counts.fates.end(), 0.0), counts.total);
     HorizonProblem open = c.problem;
@@ -205,7 +205,7 @@ void expect_alternatives(const CostByFirst& truth, const std::vector<Alternative
 
 TEST(RecordedSearch, TheRunnerUpIsTheBestOfAllPlansWithAnotherFirstManeuver) {
   std::size_t without = 0;
-  for_each_case(test::num_seeds(100), [&without](const Case& c) {
+  for_each_case(test::num_costly_seeds(100), [&without](const Case& c) {
     if (!c.has_plan()) return;
     SearchOptions options = c.options;
     options.max_expansions = SearchOptions{}.max_expansions;
@@ -256,7 +256,7 @@ TEST(RecordedSearch, AStartThatCannotStopIsTheOnlyVertex) {
 }
 
 TEST(RecordedSearch, WhatIsShownOfALargeTreeHoldsAllParentsAndWhatWasTakenFirst) {
-  for_each_case(test::num_seeds(20), [](const Case& c) {
+  for_each_case(test::num_costly_seeds(20), [](const Case& c) {
     const std::vector<TreeVertex>& vertices = c.recorded.tree.vertices;
     ASSERT_EQ(vertices_to_show(c.recorded.tree, vertices.size()).size(), vertices.size());
     const auto taken = static_cast<std::size_t>(std::ranges::count_if(

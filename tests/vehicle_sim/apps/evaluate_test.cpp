@@ -492,7 +492,7 @@ TEST_F(Evaluate, ARunFolderThatCannotBeWrittenIsNoFailureOfTheRun) {
   put(out_ / "runs", "a file where the run folders go");
   const Outcome failed = run_program("evaluate --keep_runs --scenario paper_red_alone --steps 20" +
                                      kScenarios + " --out " + out_.string());
-  EXPECT_EQ(failed.exit_code, 3) << failed.output;
+  EXPECT_EQ(failed.exit_code, 2) << failed.output;
   EXPECT_THAT(failed.output, HasSubstr("runs/0: cannot be created"));
   EXPECT_EQ(results(), before);
 }
@@ -529,14 +529,14 @@ TEST_F(Evaluate, WhatIsPrintedOnAFullDeviceIsAnOutputThatCannotBeWritten) {
   const std::string errors = (folder_ / "errors").string();
   const Outcome lost =
       evaluate(">/dev/full 2>" + errors + "; code=$?; cat " + errors + "; exit $code");
-  EXPECT_EQ(lost.exit_code, 3);
+  EXPECT_EQ(lost.exit_code, 2);
   EXPECT_THAT(lost.output,
               HasSubstr("evaluate: standard output: cannot be written: No space left"));
   EXPECT_EQ(results()["runs"].size(), 4U) << "what is written stays";
 }
 
-TEST(Help, OnAFullDeviceEndsWithTheProgramsOwnFailureCode) {
-  EXPECT_EQ(run_program("evaluate --help >/dev/full 2>&1").exit_code, 3);
+TEST(Help, OnAFullDeviceIsAnOutputThatCannotBeWritten) {
+  EXPECT_EQ(run_program("evaluate --help >/dev/full 2>&1").exit_code, 2);
   EXPECT_EQ(run_program("export_commonroad --help >/dev/full 2>&1").exit_code, 2);
 }
 

@@ -58,8 +58,8 @@ TEST_F(Explain, EveryStepInWhichAVehicleWaitsNamesForWhichAndWhatItWouldDoWithou
     const std::uint64_t step = report.step.value - *experiment().facts.first_step;
     if (step == 0) continue;
     ++num_waiting;
-    const auto [exit_code, output] = explain("--vehicle " + std::to_string(report.vehicle.value) +
-                                             " --step " + std::to_string(step));
+    const auto [exit_code, output] = explain(
+        "--vehicle_id " + std::to_string(report.vehicle.value) + " --step " + std::to_string(step));
     EXPECT_EQ(exit_code, 0) << output;
     EXPECT_THAT(output,
                 HasSubstr("waiting for " + std::to_string(report.waiting.vehicles[0].value)));
@@ -70,7 +70,8 @@ TEST_F(Explain, EveryStepInWhichAVehicleWaitsNamesForWhichAndWhatItWouldDoWithou
 
 TEST_F(Explain, TheProblemsOfTheStepCanBeSolvedAgainAndHaveTheSameRunnerUp) {
   const fs::path problems = folder().path() / "problems";
-  const test::Outcome outcome = explain("--vehicle 1 --step 10 --problems " + problems.string());
+  const test::Outcome outcome =
+      explain("--vehicle_id 1 --step 10 --dump_problems " + problems.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   ASSERT_FALSE(fs::is_empty(problems));
   fs::path last;
@@ -90,7 +91,7 @@ TEST_F(Explain, TheProblemsOfTheStepCanBeSolvedAgainAndHaveTheSameRunnerUp) {
 }
 
 TEST_F(Explain, TreeKeepsWhatWasSearchedInTheFolderAndInThePage) {
-  const test::Outcome outcome = explain("--vehicle 1 --step 10 --tree");
+  const test::Outcome outcome = explain("--vehicle_id 1 --step 10 --tree");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const fs::path page = run() / "searches" / "vehicle_1_step_10.html";
   EXPECT_THAT(outcome.output, HasSubstr("what was searched: " + page.string()));
@@ -111,7 +112,8 @@ TEST(ExplainTree, OfACostToGoThatIsNoBoundIsRefusedBeforeAnythingIsWritten) {
                    closed_loop::drive_experiment(scenario, {.steps = 3}));
   const std::string run = (folder / "run").string();
   const std::string problems = (folder / "problems").string();
-  const std::string command = "explain " + run + " --vehicle 1 --step 2 --problems " + problems;
+  const std::string command =
+      "explain " + run + " --vehicle_id 1 --step 2 --dump_problems " + problems;
   const test::Outcome refused = test::run_program(command + " --tree");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.output, "explain: " + run +
@@ -156,11 +158,13 @@ TEST_F(Explain, RefusesInOneLine) {
     std::string named;
   };
   for (const auto& [flags, named] :
-       {Bad{"--vehicle 12 --step 3", "1, 2, 3, 4, 5"}, Bad{"--vehicle 2 --step 12", "last is 11"},
-        Bad{"--vehicle 2", "--step"}, Bad{"--all --step 2", "--all"}, Bad{"--all --tree", "--all"},
-        Bad{"--vehicle 0 --step 1", "--vehicle"},
-        Bad{"--vehicle 2 --step 1 --colour red", "--colour"},
-        Bad{"--vehicle 2 --step 1 --problems /proc/no", "folder of the planning problems"}}) {
+       {Bad{"--vehicle_id 12 --step 3", "1, 2, 3, 4, 5"},
+        Bad{"--vehicle_id 2 --step 12", "last is 11"}, Bad{"--vehicle_id 2", "--step"},
+        Bad{"--all --step 2", "--all"}, Bad{"--all --tree", "--all"},
+        Bad{"--vehicle_id 0 --step 1", "--vehicle_id"},
+        Bad{"--vehicle_id 2 --step 1 --colour red", "--colour"},
+        Bad{"--vehicle_id 2 --step 1 --dump_problems /proc/no",
+            "folder of the planning problems"}}) {
     const auto [exit_code, output] = explain(flags);
     EXPECT_EQ(exit_code, 2) << flags << '\n' << output;
     EXPECT_THAT(output, HasSubstr(named));

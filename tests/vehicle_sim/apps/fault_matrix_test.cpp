@@ -72,7 +72,7 @@ TEST(FaultMatrixProgram, WritesARowForEachRoleFaultAndPhase) {
   const std::string report = (folder / "report.md").string();
   const std::string trace = (folder / "trace.txt").string();
   const auto [exit_code, output] =
-      run_matrix("--cells " + kCell + " --report " + report + " --trace " + trace);
+      run_matrix("--cells " + kCell + " --table " + report + " --trace " + trace);
   EXPECT_EQ(exit_code, 0) << output;
   EXPECT_NE(output.find("1 cells run: 1 passed"), std::string::npos) << output;
   EXPECT_EQ(rows_of(text_of(report)), 4U * 9U * 3U);
@@ -84,13 +84,13 @@ TEST(FaultMatrixProgram, ReplacesOnlyTheTableOfADocument) {
   const std::filesystem::path document = folder / "document.md";
   std::ofstream(document) << "before\n<!-- fault_matrix -->\nold\n<!-- end of fault_matrix -->\n"
                              "after\n";
-  EXPECT_EQ(run_matrix("--cells " + kCell + " --report " + document.string()).exit_code, 0);
+  EXPECT_EQ(run_matrix("--cells " + kCell + " --table " + document.string()).exit_code, 0);
   const std::string text = text_of(document);
   EXPECT_TRUE(text.starts_with("before\n<!-- fault_matrix -->\n`fault_matrix ")) << text;
   EXPECT_TRUE(text.ends_with("<!-- end of fault_matrix -->\nafter\n")) << text;
   EXPECT_EQ(text.find("old"), std::string::npos);
   std::ofstream(document) << "a document without marks\n";
-  EXPECT_EQ(run_matrix("--cells " + kCell + " --report " + document.string()).exit_code, 2);
+  EXPECT_EQ(run_matrix("--cells " + kCell + " --table " + document.string()).exit_code, 2);
   EXPECT_EQ(text_of(document), "a document without marks\n");
 }
 

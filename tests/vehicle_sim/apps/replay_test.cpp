@@ -53,7 +53,7 @@ class Replay : public testing::Test {
 };
 
 TEST_F(Replay, GivesTheSameTraceAndUntilAStepTheSameUpToThere) {
-  for (const std::string flags : {"", "--until 17"}) {
+  for (const std::string flags : {"", "--until_step 17"}) {
     const auto [exit_code, output] = replay(flags);
     EXPECT_EQ(exit_code, 0) << output;
     EXPECT_THAT(output, HasSubstr("bitwise identical: trace_sha256 "));
@@ -69,7 +69,7 @@ TEST_F(Replay, OfARecordThatWasChangedNamesStepVehicleAndWhat) {
 }
 
 TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
-  const auto [exit_code, output] = replay("--from 10 --set priorities=3,2 --set speed=1:0.5");
+  const auto [exit_code, output] = replay("--from_step 10 --set priorities=3,2 --set speed=1:0.5");
   ASSERT_EQ(exit_code, 0) << output;
   EXPECT_THAT(output, HasSubstr("from step 10 on: priorities=3,2, speed=1:0.5"));
   EXPECT_THAT(output, HasSubstr("parts (run and fork) at step 10 (2.0 s)"));
@@ -78,13 +78,13 @@ TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
   const fs::path second = folder_.path() / "second";
   const test::Outcome forked =
       replay(fork,
-             "--from 20 --set without=2 --set obstacle=0.1,0.1,0.1,0.1,0.5 "
+             "--from_step 20 --set without=2 --set obstacle=0.1,0.1,0.1,0.1,0.5 "
              "--set route=3:green --out " +
                  second.string());
   ASSERT_EQ(forked.exit_code, 0) << forked.output;
   EXPECT_THAT(forked.output, HasSubstr("at step 20 (4.0 s)"));
   EXPECT_THAT(replay(second, "").output, HasSubstr("bitwise identical"));
-  EXPECT_THAT(replay(second, "--until 15").output, HasSubstr("bitwise identical"));
+  EXPECT_THAT(replay(second, "--until_step 15").output, HasSubstr("bitwise identical"));
   const std::vector<result::VehicleDescription> cars =
       record::read_run_folder(second).description.vehicles;
   EXPECT_TRUE(cars.front().route);
@@ -99,7 +99,7 @@ TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
 }
 
 TEST_F(Replay, AForkWithoutAVehicleIsAWholeRun) {
-  const auto [exit_code, output] = replay("--from 10 --set without=2");
+  const auto [exit_code, output] = replay("--from_step 10 --set without=2");
   ASSERT_EQ(exit_code, 0) << output;
   EXPECT_THAT(record::read_run_folder(folder_.path() / "one_from_10").incomplete,
               testing::IsEmpty());
@@ -108,7 +108,7 @@ TEST_F(Replay, AForkWithoutAVehicleIsAWholeRun) {
 TEST_F(Replay, AForkOfARunThatMayOnlyBeReadCanBeChanged) {
   const fs::path flags = run() / "configuration" / "flags.yaml";
   fs::permissions(flags, fs::perms::owner_read);
-  const auto [exit_code, output] = replay("--from 10 --set priorities=3");
+  const auto [exit_code, output] = replay("--from_step 10 --set priorities=3");
   ASSERT_EQ(exit_code, 0) << output;
   const fs::path copy = folder_.path() / "one_from_10" / "configuration" / "flags.yaml";
   EXPECT_NE(fs::status(copy).permissions() & fs::perms::owner_write, fs::perms::none);
@@ -118,8 +118,9 @@ TEST_F(Replay, AForkOfARunThatMayOnlyBeReadCanBeChanged) {
 TEST_F(Replay, AForkThatCannotBeWrittenLeavesNothing) {
   const fs::path others = folder_.path() / "one_from_10.part";
   write_file(others, "of somebody else");
-  const auto [exit_code, output] = test::run_program(
-      "replay " + run().string() + " --from 10 --set priorities=3", "trap '' XFSZ; ulimit -f 60; ");
+  const auto [exit_code, output] =
+      test::run_program("replay " + run().string() + " --from_step 10 --set priorities=3",
+                        "trap '' XFSZ; ulimit -f 60; ");
   EXPECT_EQ(exit_code, 2) << output;
   EXPECT_THAT(output, HasSubstr("one_from_10"));
   const auto num_entries =
@@ -139,7 +140,7 @@ TEST_F(Replay, OfARunThatEndedEarlyComparesWhatIsRecorded) {
   const std::size_t step = reports.find("\n20,");
   std::ofstream(run() / "reports.csv") << reports.substr(0, reports.find('\n', step + 1) + 1);
   EXPECT_EQ(replay("").exit_code, 0) << "only one of three vehicles has reported the last step";
-  EXPECT_EQ(replay("--from 30 --set speed=1:0.5").exit_code, 0);
+  EXPECT_EQ(replay("--from_step 30 --set speed=1:0.5").exit_code, 0);
   std::ofstream(run() / "reports.csv") << reports.substr(0, reports.find('\n') + 1);
   EXPECT_EQ(replay("").exit_code, 2) << "nothing to compare with";
 }
@@ -159,7 +160,7 @@ TEST_F(Replay, OfARunWithBadFactsOrForksNamesTheFile) {
 // Such a fork would not be the same as the run before its first step.
 TEST_F(Replay, NoForkIsMadeOfARunThatIsNotReplayed) {
   change("reports.csv", ",planned,", ",fallback,");
-  const auto [exit_code, output] = replay("--from 10 --set priorities=3");
+  const auto [exit_code, output] = replay("--from_step 10 --set priorities=3");
   EXPECT_EQ(exit_code, 2) << output;
   EXPECT_THAT(output, HasSubstr("differs from its record from step 0 (0.0 s), vehicle 1"));
   EXPECT_FALSE(fs::exists(folder_.path() / "one_from_10"));
@@ -171,14 +172,15 @@ TEST_F(Replay, RefusesWhatItCannotDriveInOneLineAndLeavesNoFolder) {
     std::string named;
   };
   for (const auto& [flags, named] :
-       {Bad{"--from 40", "must be less than the run's 40 steps"},
-        Bad{"--from 3 --set without=9", "1, 2, 3"}, Bad{"--set without=1", "--from"},
-        Bad{"--from 3 --set criteria=1:J9", "J9"}, Bad{"--from 3 --until 2", "2 steps"},
-        Bad{"--from 3 --set obstacle=2,2,10,10", "must be clear of vehicle 1"},
-        Bad{"--from 3 --set route=1:blue", "a route that vehicle 1 fits there"},
-        Bad{"--out /tmp/x", "--from"}, Bad{"--until 0", "--until"},
-        Bad{"--from 3 --out " + run().string(), "new or empty"},
-        Bad{"--from 3 --out /proc/no/such", "--out"}, Bad{"--speed 3", "--speed"}}) {
+       {Bad{"--from_step 40", "must be less than the run's 40 steps"},
+        Bad{"--from_step 3 --set without=9", "1, 2, 3"}, Bad{"--set without=1", "--from_step"},
+        Bad{"--from_step 3 --set criteria=1:J9", "J9"},
+        Bad{"--from_step 3 --until_step 2", "2 steps"},
+        Bad{"--from_step 3 --set obstacle=2,2,10,10", "must be clear of vehicle 1"},
+        Bad{"--from_step 3 --set route=1:blue", "a route that vehicle 1 fits there"},
+        Bad{"--out /tmp/x", "--from_step"}, Bad{"--until_step 0", "--until_step"},
+        Bad{"--from_step 3 --out " + run().string(), "new or empty"},
+        Bad{"--from_step 3 --out /proc/no/such", "--out"}, Bad{"--speed 3", "--speed"}}) {
     const auto [exit_code, output] = replay(flags);
     EXPECT_EQ(exit_code, 2) << flags << '\n' << output;
     EXPECT_THAT(output, HasSubstr(named));
@@ -205,7 +207,7 @@ TEST_F(Replay, OfARunInRealTimeNeedsItsMessagesAndForksNone) {
   EXPECT_THAT(refusal(""), HasSubstr("run.mcap: is missing, must be there"));
   write_file(run() / "run.mcap", "no recording");
   EXPECT_THAT(refusal(""), HasSubstr("run.mcap: no MCAP file"));
-  EXPECT_THAT(refusal("--from 3"), HasSubstr("must be a run in logical time"));
+  EXPECT_THAT(refusal("--from_step 3"), HasSubstr("must be a run in logical time"));
 }
 
 }  // namespace

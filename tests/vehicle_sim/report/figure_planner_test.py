@@ -194,7 +194,7 @@ class Draw(unittest.TestCase):
             self.assertIn("data.json", errors)
         file.write_text(json.dumps(automaton(3)))
         code, errors = self.run_main("automaton", str(file), str(self.folder / "none" / "out.svg"))
-        self.assertEqual((code, errors.count("\n")), (3, 1))
+        self.assertEqual((code, errors.count("\n")), (2, 1))
         self.assertIn("No such file or directory, must be writable", errors)
         self.assertEqual([one.name for one in self.folder.iterdir()], ["data.json"])
 

@@ -210,7 +210,8 @@ TEST(BranchAndBound, IsGuidedByFarReferencesAsByNearOnes) {
 // for whole numbers.
 TEST(BranchAndBound, AgreesWithBestFirstOnHorizonsOfManyRows) {
   const automaton::Subgraph few = test::make_test_subgraph({kSlow}, {1, 6, 7, 8});
-  EXPECT_GE(compare_horizons(few, {17, 18, 24, 33, 39, 40, 64}, test::num_seeds(120)), 30U);
+  EXPECT_GE(compare_horizons(few, {17, 18, 24, 33, 39, 40, 64}, test::num_costly_seeds(120)),
+            30U / test::kThinning);
 }
 
 TEST(BranchAndBound, AgreesWithBestFirstOnAGridOfThirtyFourTrims) {
@@ -224,7 +225,7 @@ TEST(BranchAndBound, AgreesWithBestFirstOnAGridOfThirtyFourTrims) {
                                .rule = automaton::EdgeRule::kReachable};
   for (std::size_t i = 0; i < trims.size(); ++i) spec.trims.push_back({i});
   const automaton::Subgraph grid(test::make_test_automaton(trims, {kSlow}), spec);
-  EXPECT_GE(compare_horizons(grid, {6, 8, 10}, test::num_seeds(30)), 8U);
+  EXPECT_GE(compare_horizons(grid, {6, 8, 10}, test::num_costly_seeds(30)), 8U / test::kThinning);
 }
 
 // Also where a search ends early: its lower bound shows every bit of the children's bounds.
