@@ -144,11 +144,9 @@ std::string legend(const RunSummary& summary) {
   return text;
 }
 
-}  // namespace
-
-std::string summary_table(const RunSummary& summary) {
+std::string head_line(const RunSummary& summary) {
   const RunDescription& run = summary.description;
-  std::string text = fmt::format(
+  return fmt::format(
       "{}: {} steps of {:g} s, horizon {}, subgraph {}{}{}{}, profile {}, {}, {}\n\n", run.scenario,
       summary.steps, run.step_s, run.horizon_steps, run.subgraph,
       run.policy == policy::kNoPolicy ? "" : ", policy " + run.policy,
@@ -157,6 +155,12 @@ std::string summary_table(const RunSummary& summary) {
                                                                : ", priorities " + run.priorities,
       run.profile, run.map.empty() ? "no map" : "map " + run.map,
       run.noise_seed ? fmt::format("noise seed {}", *run.noise_seed) : "no noise");
+}
+
+}  // namespace
+
+std::string summary_table(const RunSummary& summary) {
+  std::string text = head_line(summary);
   const int laps = lap_width(summary);
   text +=
       fmt::format("{:>3}  {:<8} {:>14} {:>{}} {:>19} {:>27} {:>12} {:>13}\n", "", "", "reference",
