@@ -12,7 +12,7 @@
 namespace hlc::scenario {
 namespace {
 
-constexpr char kKey[] = "reference_speed_mps";
+constexpr char kSpeedKey[] = "reference_speed_mps";
 
 /// @pre the route drives the lanelet
 std::size_t index_of(road::LaneletId lanelet, const road::Route& route) {
@@ -104,8 +104,8 @@ void check_reference_speeds(const ScenarioValues& values,
   const double top_mps = top_trim_speed_mps(*subgraph);
   const auto check_drivable = [&](const Node& node, double speed_mps) {
     if (speed_mps <= top_mps) return;
-    node.fail(kKey, fmt::format("<= {}, the speed of the fastest trim of subgraph {}", top_mps,
-                                subgraph->spec().name));
+    node.fail(kSpeedKey, fmt::format("<= {}, the speed of the fastest trim of subgraph {}", top_mps,
+                                     subgraph->spec().name));
   };
   bool have_all_their_own = !values.vehicles.empty();
   double fastest_mps = 0.0;
@@ -117,16 +117,16 @@ void check_reference_speeds(const ScenarioValues& values,
     try {
       static_cast<void>(subgraph_at(subgraph, *vehicle.reference_speed_mps, values.horizon_steps));
     } catch (const std::invalid_argument& error) {
-      vehicle.node.fail(kKey, fmt::format("one at which the car can stop: {}", error.what()));
+      vehicle.node.fail(kSpeedKey, fmt::format("one at which the car can stop: {}", error.what()));
     }
   }
   if (!have_all_their_own) fastest_mps = std::max(fastest_mps, values.reference_speed_mps);
   for_each_section(values, [&](const SectionValues& section) {
     check_drivable(section.node, section.reference_speed_mps);
     if (section.reference_speed_mps <= fastest_mps) return;
-    section.node.fail(kKey, fmt::format("<= {}, the highest reference speed of a vehicle: a "
-                                        "section makes none faster",
-                                        fastest_mps));
+    section.node.fail(kSpeedKey, fmt::format("<= {}, the highest reference speed of a vehicle: a "
+                                             "section makes none faster",
+                                             fastest_mps));
   });
 }
 
