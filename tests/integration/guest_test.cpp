@@ -86,11 +86,12 @@ TEST_F(GuestProcesses, AreDrivenByKeysInRealTime) {
   const std::string domain_of_run = output().substr(at, output().find(' ', at) - at);
   const std::string keys = folder_ / "keys";
   ASSERT_EQ(mkfifo(keys.c_str(), 0600), 0);
-  ChildProcess driver({"/bin/sh", "-c",
-                       "exec " + build_folder() + "/bin/drive_by_hand --scenario " +
-                           (folder_ / "scenario.yaml") + " --vehicle_id 30 --transport loopback " +
-                           "--dds_domain " + domain_of_run + " < " + keys},
-                      folder_ / "driver");
+  ChildProcess driver(
+      {"/bin/sh", "-c",
+       "exec " + build_folder() + "/bin/drive_by_hand --scenario " +
+           (folder_ / "scenario.yaml").string() + " --vehicle_id 30 --transport loopback " +
+           "--dds_domain " + domain_of_run + " < " + keys},
+      folder_ / "driver");
   std::ofstream pressed(keys);
   pressed << "wwwwww" << std::flush;
   EXPECT_EQ(run.wait_for(240s), 0) << output();

@@ -40,16 +40,15 @@ struct Flags {
 };
 
 void declare(CLI::App& app, Flags& flags) {
-  hlc::apps::declare_scenario(app, "--scenario", flags.scenario,
-                              ", with the guest and its limits")
+  hlc::apps::declare_scenario(app, "--scenario", flags.scenario, ", with the guest and its limits")
       ->required();
   app.add_option("--vehicle_id", flags.vehicle_id, "the guest, with drive: by_hand")
       ->required()
       ->check(hlc::apps::vehicle_id_range());
   app.add_option(
-      "--gamepad", flags.gamepad,
-      "joystick device, e.g. /dev/input/js0, beside the keyboard; its first axis steers, "
-      "its second one gives the speed; default: the keyboard alone")
+         "--gamepad", flags.gamepad,
+         "joystick device, e.g. /dev/input/js0, beside the keyboard; its first axis steers, "
+         "its second one gives the speed; default: the keyboard alone")
       ->type_name("FILE");
   flags.network.declare_network(app);
   hlc::apps::declare_help_end(

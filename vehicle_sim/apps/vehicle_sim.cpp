@@ -17,7 +17,7 @@
 #include "planner/scenario/guest_values.hpp"
 #include "vehicle_sim/apps/start_pose.hpp"
 #include "vehicle_sim/apps/vehicle_process.hpp"
-#include "vehicle_sim/vehicle/guest_vehicle.hpp"
+#include "vehicle_sim/closed_loop/guest_vehicle.hpp"
 
 namespace {
 
@@ -125,7 +125,7 @@ std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(
       return one.guest.vehicle.value;
     });
     if (guest != guests.end()) {
-      vehicles.push_back(hlc::simulated_vehicle::guest_vehicle(*guest, seed, stamps));
+      vehicles.push_back(hlc::closed_loop::guest_vehicle(*guest, seed, stamps));
       continue;
     }
     vehicles.push_back(

@@ -19,9 +19,9 @@
 #include "planner/controller/joint_step.hpp"
 #include "planner/policy/subgraph_selector.hpp"
 #include "vehicle_sim/closed_loop/applied_forks.hpp"
+#include "vehicle_sim/closed_loop/guest_vehicle.hpp"
 #include "vehicle_sim/closed_loop/member.hpp"
 #include "vehicle_sim/closed_loop/stamps_of.hpp"
-#include "vehicle_sim/vehicle/guest_vehicle.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
 namespace hlc::closed_loop {
@@ -76,7 +76,7 @@ class Lab {
       const std::uint8_t id = guest.guest.vehicle.value;
       std::optional<std::uint64_t> noise_seed;
       if (options.noise_seed) noise_seed = *options.noise_seed + id;
-      guests_.emplace(id, simulated_vehicle::SimulatedVehicle(simulated_vehicle::guest_vehicle(
+      guests_.emplace(id, simulated_vehicle::SimulatedVehicle(guest_vehicle(
                               guest, noise_seed, options.stamps.value_or(stamps_of(scenario)))));
     }
     forks_.emplace(options.forks, scenario, members_);

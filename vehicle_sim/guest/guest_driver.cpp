@@ -48,15 +48,15 @@ GuestDriver::GuestDriver(GuestDriverOptions options)
 DriverCommand GuestDriver::tick(Nanoseconds t_now, const vehicle::VehicleMotion& motion) {
   if (!begin_) begin_ = t_now;
   const double t_s = 1e-9 * static_cast<double>(t_now - *begin_);
-  const Wish wish = this->wish(t_s, motion.pose.position_m());
-  return commands_.tick(t_now, wish.speed_mps, arc_curvature_per_m(motion.pose, wish.towards_m));
+  const Aim aim = this->aim(t_s, motion.pose.position_m());
+  return commands_.tick(t_now, aim.speed_mps, arc_curvature_per_m(motion.pose, aim.towards_m));
 }
 
-GuestDriver::Wish GuestDriver::wish(double t_s, const Point& position_m) {
+GuestDriver::Aim GuestDriver::aim(double t_s, const Point& position_m) {
   return options_.track.empty() ? wandering(t_s, position_m) : on_track(t_s, position_m);
 }
 
-GuestDriver::Wish GuestDriver::on_track(double t_s, const Point& position_m) const {
+GuestDriver::Aim GuestDriver::on_track(double t_s, const Point& position_m) const {
   const Point towards_m = along(options_.track, t_s + kLookAhead_s);
   const double distance_m = (towards_m - position_m).norm();
   const bool is_over = t_s >= options_.track.back().time_s;
@@ -64,7 +64,7 @@ GuestDriver::Wish GuestDriver::on_track(double t_s, const Point& position_m) con
   return {.towards_m = towards_m, .speed_mps = distance_m / kLookAhead_s};
 }
 
-GuestDriver::Wish GuestDriver::wandering(double t_s, const Point& position_m) {
+GuestDriver::Aim GuestDriver::wandering(double t_s, const Point& position_m) {
   const bool is_there = (wandering_to_.towards_m - position_m).norm() <= kArrived_m;
   const bool stands = wandering_to_.speed_mps == 0.0;
   if (t_s < wanders_until_s_ && (stands || !is_there)) return wandering_to_;

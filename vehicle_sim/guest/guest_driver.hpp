@@ -32,20 +32,20 @@ class GuestDriver {
   [[nodiscard]] DriverCommand tick(Nanoseconds t_now, const vehicle::VehicleMotion& motion);
 
  private:
-  struct Wish {
+  struct Aim {
     Point towards_m{0.0, 0.0};
     double speed_mps{};
   };
-  [[nodiscard]] Wish wish(double t_s, const Point& position_m);
-  [[nodiscard]] Wish on_track(double t_s, const Point& position_m) const;
-  [[nodiscard]] Wish wandering(double t_s, const Point& position_m);
+  [[nodiscard]] Aim aim(double t_s, const Point& position_m);
+  [[nodiscard]] Aim on_track(double t_s, const Point& position_m) const;
+  [[nodiscard]] Aim wandering(double t_s, const Point& position_m);
   [[nodiscard]] double share();
 
   GuestDriverOptions options_;
   std::mt19937_64 random_;
   std::optional<Nanoseconds> begin_;  ///< first tick
   DriverCommands commands_;
-  Wish wandering_to_{};
+  Aim wandering_to_{};
   double wanders_until_s_{};
 };
 

@@ -10,11 +10,11 @@ namespace hlc::guest {
 
 /// What a human wants of a guest, by keys or the axes of a gamepad.
 ///
-/// Keys, since a terminal does not report their release, change the wish and let it stay: arrow up
-/// or w is faster by a tenth of the highest speed, down or s slower, left or a more to the left by
-/// a quarter of the tightest curvature, right or d to the right, x straight on, space stop, q the
-/// end. The first axis pushed to the left steers to the left as far as it is pushed, the second
-/// pushed forwards gives the share of the highest speed.
+/// Keys, since a terminal does not report their release, change what is wanted and let it stay:
+/// arrow up or w is faster by a tenth of the highest speed, down or s slower, left or a more to the
+/// left by a quarter of the tightest curvature, right or d to the right, x straight on, space stop,
+/// q the end. The first axis pushed to the left steers to the left as far as it is pushed, the
+/// second pushed forwards gives the share of the highest speed.
 class HandControl {
  public:
   HandControl(VehicleId vehicle, const coordination::GuestLimits& limits)

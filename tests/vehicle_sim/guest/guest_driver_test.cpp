@@ -12,7 +12,7 @@
 #include "tests/support/num_seeds.hpp"
 #include "vehicle_sim/vehicle/simulated_vehicle.hpp"
 
-namespace hlc::guest {
+namespace hlc::guest::guest_driver_test {
 namespace {
 
 using simulated_vehicle::SimulatedVehicle;
@@ -110,4 +110,4 @@ TEST(GuestDriver, FollowsATrackByItsTimesAndStandsAtItsEnd) {
 }
 
 }  // namespace
-}  // namespace hlc::guest
+}  // namespace hlc::guest::guest_driver_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/num_seeds.hpp"
 
-namespace hlc::guest {
+namespace hlc::guest::hand_control_test {
 namespace {
 
 constexpr coordination::GuestLimits kLimits{
@@ -15,7 +15,7 @@ constexpr coordination::GuestLimits kLimits{
 
 HandControl control() { return {VehicleId{9}, kLimits}; }
 
-TEST(HandControl, KeysChangeTheWishAndLetItStay) {
+TEST(HandControl, KeysChangeWhatIsWantedAndLetItStay) {
   HandControl hand = control();
   hand.type("www");
   EXPECT_NEAR(hand.speed_mps(), 0.3, 1e-12);
@@ -89,4 +89,4 @@ TEST(HandControl, CommandsStayWithinTheLimitsWhateverIsTyped) {
 }
 
 }  // namespace
-}  // namespace hlc::guest
+}  // namespace hlc::guest::hand_control_test
