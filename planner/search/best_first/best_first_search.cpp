@@ -21,8 +21,7 @@ bool is_well_formed(const HorizonProblem& problem, const automaton::ReachableSet
   const auto matches = [n](const std::vector<std::vector<ConvexPolygon>>& areas_m) {
     return areas_m.empty() || areas_m.size() == n;
   };
-  const bool obstacles_match =
-      matches(problem.obstacles_m) && matches(problem.avoided_in_motion_m);
+  const bool obstacles_match = matches(problem.obstacles_m) && matches(problem.avoided_in_motion_m);
   const bool contouring_matches = problem.contouring.empty() || problem.contouring.size() == n;
   return n <= reachable.max_steps() && speeds_match && obstacles_match && contouring_matches &&
          problem.start.position_m().allFinite() && std::isfinite(problem.start.heading_rad);

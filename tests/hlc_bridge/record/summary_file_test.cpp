@@ -40,15 +40,14 @@ result::RunSummary some_summary() {
 
 TEST(SummaryFile, HasTheAgreedKeysInOrder) {
   const auto json = nlohmann::ordered_json::parse(summary_json(some_summary()));
-  EXPECT_THAT(
-      keys(json),
-      ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps", "step_s",
-                  "steps", "vehicles", "generated_vertices_sum_max", "min_footprint_distance_m",
-                  "collisions", "wall_s", "realtime_factor", "response_time_ms", "trace_sha256",
-                  "revision", "host", "engine", "expanded_vertices_sum_max", "policy",
-                  "longest_wait_s", "stuck_vehicles", "joint_gap", "priorities", "rounds",
-                  "min_obstacle_distance_m", "obstacles", "guests",
-                  "min_guest_distance_m", "touched_by_guests"));
+  EXPECT_THAT(keys(json),
+              ElementsAre("scenario", "profile", "map", "seed", "subgraph", "horizon_steps",
+                          "step_s", "steps", "vehicles", "generated_vertices_sum_max",
+                          "min_footprint_distance_m", "collisions", "wall_s", "realtime_factor",
+                          "response_time_ms", "trace_sha256", "revision", "host", "engine",
+                          "expanded_vertices_sum_max", "policy", "longest_wait_s", "stuck_vehicles",
+                          "joint_gap", "priorities", "rounds", "min_obstacle_distance_m",
+                          "obstacles", "guests", "min_guest_distance_m", "touched_by_guests"));
   const auto& vehicle = json["vehicles"][0];
   EXPECT_THAT(
       keys(vehicle),
