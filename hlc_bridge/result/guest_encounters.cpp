@@ -11,6 +11,18 @@ namespace {
 
 enum class Contact { kNone, kStanding, kMoving };
 
+/// What a touch has become by this instant, counted.
+Contact next_contact(Contact before, bool touches, bool moves, GuestEncounters& result) {
+  if (!touches) return Contact::kNone;
+  if (moves) {
+    if (before == Contact::kStanding) --result.touched;
+    if (before != Contact::kMoving) ++result.collisions;
+    return Contact::kMoving;
+  }
+  if (before == Contact::kNone) ++result.touched;
+  return before == Contact::kNone ? Contact::kStanding : before;
+}
+
 void measure_pair(const VehicleDescription& vehicle, const Drive& drive,
                   const VehicleDescription& guest, const Drive& guest_drive, Nanoseconds from,
                   Nanoseconds to, GuestEncounters& result) {
@@ -23,16 +35,8 @@ void measure_pair(const VehicleDescription& vehicle, const Drive& drive,
     const double apart_m = distance_m(footprint_area(vehicle.footprint, sample.pose),
                                       footprint_area(guest.footprint, *guest_pose));
     result.min_distance_m = std::min(result.min_distance_m.value_or(apart_m), apart_m);
-    if (apart_m > 0.0) {
-      contact = Contact::kNone;
-    } else if (std::abs(sample.speed_mps) > kStanding_mps) {
-      if (contact == Contact::kStanding) --result.touched;
-      if (contact != Contact::kMoving) ++result.collisions;
-      contact = Contact::kMoving;
-    } else if (contact == Contact::kNone) {
-      ++result.touched;
-      contact = Contact::kStanding;
-    }
+    contact =
+        next_contact(contact, apart_m == 0.0, std::abs(sample.speed_mps) > kStanding_mps, result);
   }
 }
 

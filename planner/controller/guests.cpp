@@ -7,9 +7,9 @@
 
 namespace hlc::controller {
 
-Guests::Guests(std::vector<coordination::Guest> guests) {
-  for (coordination::Guest& guest : guests) {
-    guests_.push_back({.guest = std::move(guest), .last = std::nullopt, .step = {}});
+Guests::Guests(const std::vector<coordination::Guest>& guests) {
+  for (const coordination::Guest& guest : guests) {
+    guests_.push_back({.guest = guest, .last = std::nullopt, .step = {}});
   }
 }
 

@@ -13,7 +13,7 @@ namespace hlc::controller {
 /// One controller's knowledge of the guests: the last usable state of each. A value.
 class Guests {
  public:
-  explicit Guests(std::vector<coordination::Guest> guests);
+  explicit Guests(const std::vector<coordination::Guest>& guests);
 
   /// Takes the states of step k. A guest without one may be wherever it can have got to since the
   /// last; one that was never seen is not there.

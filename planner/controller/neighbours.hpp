@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "planner/automaton/automaton.hpp"
@@ -33,8 +32,8 @@ class Neighbours {
  public:
   /// @param rules  for missing ones
   Neighbours(VehicleId own, const coordination::MissingVehicleRules& rules,
-             std::vector<coordination::Guest> guests = {})
-      : own_(own), rules_(rules), guests_(std::move(guests)) {}
+             const std::vector<coordination::Guest>& guests = {})
+      : own_(own), rules_(rules), guests_(guests) {}
 
   [[nodiscard]] const coordination::MissingVehicleRules& rules() const { return rules_; }
   [[nodiscard]] const Guests& guests() const { return guests_; }
