@@ -40,7 +40,7 @@ class PlainSearch {
   /// @param subgraph  must outlive this object
   explicit PlainSearch(const automaton::Subgraph& subgraph);
 
-  /// @pre problem.obstacles_m.size() is 0 or n
+  /// @pre problem.obstacles_m.size() is 0 or n, problem.avoided_in_motion_m is empty
   [[nodiscard]] PlainResult search(const search::HorizonProblem& problem) const;
 
  private:

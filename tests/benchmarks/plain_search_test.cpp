@@ -35,6 +35,7 @@ void expect_agreement_with_trying_every_path(double surge_mps2, std::size_t hori
     std::mt19937_64 random(seed);
     search::HorizonProblem problem = random_problem(subgraph, horizon_steps, random);
     problem.contouring.clear();  // the plain search knows the paper's cost alone
+    problem.avoided_in_motion_m.clear();
     problem.avoids_steering_limit = seed % 4 == 0;
     const ExhaustiveResult truth = exhaustive_search(subgraph, problem);
     const PlainResult plan = search.search(problem);
