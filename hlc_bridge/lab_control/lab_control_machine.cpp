@@ -31,9 +31,9 @@ void LabControlMachine::take(const ParameterRequest& request) {
   if (request.name == kPeriodParameter) {
     replies_.emplace_back(Parameter{request.name, settings.period / kNanosecondsPerMillisecond});
   } else if (request.name == kActiveIdsParameter) {
-    std::vector<std::int32_t> ids(settings.vehicle_ids.begin(), settings.vehicle_ids.end());
-    ids.insert(ids.end(), settings.guest_ids.begin(), settings.guest_ids.end());
-    replies_.emplace_back(Parameter{request.name, std::move(ids)});
+    const std::vector<std::uint8_t> ids = settings.all_ids();
+    replies_.emplace_back(
+        Parameter{request.name, std::vector<std::int32_t>(ids.begin(), ids.end())});
   }
 }
 

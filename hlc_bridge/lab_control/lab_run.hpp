@@ -31,6 +31,13 @@ struct LabRunSettings {
   std::uint64_t steps{150};
   Nanoseconds startup_timeout{20 * kNanosecondsPerSecond};
   OnDeath on_death{OnDeath::kStop};
+
+  /// Of the vehicles, then of the guests.
+  [[nodiscard]] std::vector<std::uint8_t> all_ids() const {
+    std::vector<std::uint8_t> ids = vehicle_ids;
+    ids.insert(ids.end(), guest_ids.begin(), guest_ids.end());
+    return ids;
+  }
 };
 
 /// Duration of the minimal-risk stop after a death, until the stop symbol.

@@ -100,9 +100,7 @@ LabControlProcess::LabControlProcess(LabControlOptions options)
 /// Real time: a vehicle is present once a state has been received. While the run gathers, every
 /// state counts, since a vehicle may leave and come back; later ones have no effect.
 void LabControlProcess::listen_to_vehicles() {
-  std::vector<std::uint8_t> ids = options_.run.vehicle_ids;
-  ids.insert(ids.end(), options_.run.guest_ids.begin(), options_.run.guest_ids.end());
-  for (const std::uint8_t id : ids) {
+  for (const std::uint8_t id : options_.run.all_ids()) {
     state_readers_.try_emplace(
         id, lab_, dds::topics::vehicle_state(id),
         [this](const VehicleState& state) {
