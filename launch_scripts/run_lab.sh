@@ -159,7 +159,7 @@ starts=$(head -n -3 <<<"$starts")
 guest_ids=()
 [[ $guests == - ]] || mapfile -t guest_ids < <(tr , '\n' <<<"$guests")
 for id in "${guest_ids[@]}"; do
-  ((id <= 30)) || fail "scenario $scenario: guest $id, must be in 1 ... 30 in the lab; rollout and evaluate take more"
+  ((id <= 30)) || fail "scenario $scenario: guest $id, must be in 1 ... 30 in the lab; evaluate takes more"
 done
 [[ $period_ms =~ ^[0-9]+$ && $((period_ms % 50)) == 0 ]] ||
   fail "scenario $scenario: the automaton's step_s is $period_ms ms, must be a multiple of 50 ms in the lab; rollout takes others"

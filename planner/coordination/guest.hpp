@@ -38,8 +38,7 @@ struct GuestErrors {
 /// with acceleration a up to its highest speed; a faster one keeps its speed. A path of length s
 /// with curvature at most K leads in the direction phi from its course at most
 ///
-///     h(phi, s) = (sin phi + K s - phi) / K         if K s >= phi   (turn towards phi, then
-///     straight)
+///     h(phi, s) = (sin phi + K s - phi) / K         if K s >= phi   (turn there, then straight)
 ///                 (sin phi - sin(phi - K s)) / K    otherwise       (turn all the way)
 ///
 /// which over s in [s_low, s_high] is largest at one of the ends. The polygon has sixteen sides,

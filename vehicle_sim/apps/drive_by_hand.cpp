@@ -53,9 +53,11 @@ void declare(CLI::App& app, Flags& flags) {
   flags.network.declare_network(app);
   hlc::apps::declare_help_end(
       app,
-      {.examples = {"drive_by_hand --scenario lab_guest --vehicle_id 30 --transport loopback",
-                    "drive_by_hand --scenario lab_guest --vehicle_id 30 --dds_domain 40 --gamepad "
-                    "/dev/input/js0"},
+      {.examples =
+           {"drive_by_hand --scenario by_hand.yaml --vehicle_id 30 --dds_domain 1 --transport "
+            "loopback",
+            "drive_by_hand --scenario by_hand.yaml --vehicle_id 30 --dds_domain 21 --gamepad "
+            "/dev/input/js0"},
        .exit_codes = "0 ended, 2 invalid input",
        .notes = "Keys: arrow up or w faster, down or s slower, left or a, right or d steer, x "
                 "straight on, space stop, q end.\nCommands stay within the guest's limits. At its "
