@@ -2,7 +2,7 @@
 # Makes the identities and rights of a run's processes for DDS security.
 set -euo pipefail
 umask 077
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 
 usage() {
   cat <<'TEXT'
@@ -27,7 +27,7 @@ vehicle_ids="" out="" days=30
 while (($#)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
-    --version) exec "$root/launch_scripts/version.sh" make_security.sh ;;
+    --version) exec "$here/version.sh" make_security.sh ;;
     --*=*) name=${1%%=*} value=${1#*=} ;;
     --*) name=$1 value=${2-}
       (($# >= 2)) || fail "$1 needs a value"

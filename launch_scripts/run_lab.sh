@@ -2,12 +2,18 @@
 # Drives a scenario: one simulated car, middleware and high-level controller per vehicle and one lab control,
 # each its own process, or one process with all cars and one middleware, over DDS. Prints the result table.
 set -uo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
+root=$(dirname "$here")
+runs=$root/runs programs=""
+if [[ -x $here/lab_control ]]; then # installed beside the programs
+  runs=$PWD/runs programs=$here
+fi
 
 usage() {
   cat <<'TEXT'
 usage: run_lab.sh [flags]      (every flag also as --name=value)
-Installs what is missing, builds, drives three cars for 30 s, prints the result table.
+Installs what is missing, builds, drives three cars for 30 s, prints the result table. Where it is installed beside the
+programs it builds nothing, and runs/ is in the working directory.
   --scenario FILE         scenario file (YAML), or the name of one of launch_scripts/scenarios
                           (default paper_three_cars; also paper_red_alone, circle, lab_cars)
   --profile NAME          default: every plan optimal, safe under loss of messages between controllers
@@ -62,7 +68,7 @@ TEXT
 
 fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 # shellcheck source=SCRIPTDIR/domain_locks.sh
-source "$root/launch_scripts/domain_locks.sh"
+source "$here/domain_locks.sh"
 
 scenario=paper_three_cars profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
@@ -72,7 +78,7 @@ startup_timeout_s=20 log_level=${HLC_LOG_LEVEL:-info}
 while (($#)); do
   case "$1" in
     -h | --help) usage; exit 0 ;;
-    --version) exec "$root/launch_scripts/version.sh" run_lab.sh ;;
+    --version) exec "$here/version.sh" run_lab.sh ;;
     --no_build) build=false; shift; continue ;;
     --view) view=true; shift; continue ;;
     --*=*) name=${1%%=*} value=${1#*=} ;;
@@ -130,12 +136,13 @@ case "$preset" in
   *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
 esac
 [[ ! -e $scenario || $scenario == /* ]] || scenario=$PWD/$scenario
-[[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/${scenario%.yaml}.yaml
-[[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$root/launch_scripts/scenarios" && echo *.yaml)"
+[[ -e $scenario ]] || scenario=$here/scenarios/${scenario%.yaml}.yaml
+[[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$here/scenarios" && echo *.yaml)"
 
+[[ -n $bin ]] || bin=$programs
 if $build && [[ -z $bin ]]; then
-  "$root/launch_scripts/setup.sh" || exit 1
-  "$root/launch_scripts/build.sh" --preset "$preset" --programs || exit 1
+  "$here/setup.sh" || exit 1
+  "$here/build.sh" --preset "$preset" --programs || exit 1
 fi
 [[ -n $bin ]] || bin=$root/build/$preset/bin
 [[ -x $bin/lab_control ]] || fail "no programs in $bin; leave out --no_build and --bin"
@@ -231,12 +238,12 @@ if [[ -n $dump_problems ]]; then
   make_folder dump_problems "$dump_problems"
 fi
 if [[ -z $out ]]; then
-  out=$root/runs/$(date +%Y%m%d_%H%M%S)_$(basename "$scenario" .yaml)
+  out=$runs/$(date +%Y%m%d_%H%M%S)_$(basename "$scenario" .yaml)
   base=$out
   for ((i = 2; ; i++)); do
-    mkdir -p "$root/runs" && mkdir "$out" 2>/dev/null && break
+    mkdir -p "$runs" && mkdir "$out" 2>/dev/null && break
     out=${base}_$i
-    ((i < 1000)) || fail "cannot create a run folder in $root/runs"
+    ((i < 1000)) || fail "cannot create a run folder in $runs"
   done
 fi
 mkdir -p "$out/logs" "$out/configuration" 2>/dev/null || fail "--out = $out: not writable"
@@ -352,7 +359,7 @@ for group in "${groups[@]}"; do
   [[ -z $seeds ]] || vehicle+=(--noise_seed "$seeds")
   [[ -z $gains_scale ]] || vehicle+=(--gains_scale "$gains_scale")
   [[ -z $dump_problems ]] || vehicle+=(--dump_problems "$dump_problems")
-  HLC_DOMAINS_ARE_RESERVED=1 with_me "$root/launch_scripts/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
+  HLC_DOMAINS_ARE_RESERVED=1 with_me "$here/vehicle.sh" "${vehicle[@]}" 2>>"$out/logs/vehicles.log" &
   children+=($!)
 done
 recorded=()

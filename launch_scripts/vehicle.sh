@@ -3,7 +3,12 @@
 # runs them; or several vehicles, which share the first two. Ends when all processes have ended. --only
 # restarts one of them during a run.
 set -uo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
+root=$(dirname "$here")
+runs=$root/runs programs=$root/build/release/bin
+if [[ -x $here/vehicle_sim ]]; then # installed beside the programs
+  runs=$PWD/runs programs=$here
+fi
 
 usage() {
   cat <<'TEXT'
@@ -46,7 +51,7 @@ usage: vehicle.sh --vehicle_ids N --scenario FILE [flags]      (every flag also 
                           which the vehicle of the run in --out was started, except --bin; a car keeps its last pose.
                           What several vehicles share is restarted with all of them as --vehicle_ids
   --out DIR               folder for logs and the vehicle's record (default: runs/vehicle_N)
-  --bin DIR               folder of the programs (default: build/release/bin)
+  --bin DIR               folder of the programs (default: build/release/bin, or where this script is installed)
   --startup_timeout_s N   startup timeout (default 30)
 Examples:
   vehicle.sh --vehicle_ids 1 --scenario paper_red_alone --dds_domain 40 --out runs/by_hand
@@ -57,13 +62,13 @@ TEXT
 
 fail() { echo "vehicle.sh: $1" >&2; exit 2; }
 # shellcheck source=SCRIPTDIR/domain_locks.sh
-source "$root/launch_scripts/domain_locks.sh"
+source "$here/domain_locks.sh"
 
 vehicle_ids="" scenario="" profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed="" routes=""
 simulated_time=true transport=loopback dds_domain=1 middleware_domain="" controller_domain="" pose=""
 # shellcheck disable=SC2034 # read by name
 discovery_mode="" discovery_server_id="" discovery_server_ip="" discovery_server_port="" controller_peers=""
-security=${HLC_SECURITY-} noise_seed="" gains_scale="" stamps="" log_level=${HLC_LOG_LEVEL:-info} messages=false on_death=stop out="" bin=$root/build/release/bin startup_timeout_s=30 only="" shared_by=""
+security=${HLC_SECURITY-} noise_seed="" gains_scale="" stamps="" log_level=${HLC_LOG_LEVEL:-info} messages=false on_death=stop out="" bin=$programs startup_timeout_s=30 only="" shared_by=""
 kept_flags=(vehicle_ids scenario profile engine priorities dump_problems subgraph policy map cars seed routes simulated_time transport
   discovery_mode discovery_server_id discovery_server_ip discovery_server_port controller_peers dds_domain middleware_domain
   controller_domain security pose noise_seed gains_scale stamps log_level messages on_death startup_timeout_s shared_by)
@@ -74,7 +79,7 @@ take_flags() {
   while (($#)); do
     case "$1" in
       -h | --help) usage; exit 0 ;;
-      --version) exec "$root/launch_scripts/version.sh" vehicle.sh ;;
+      --version) exec "$here/version.sh" vehicle.sh ;;
       --*=*) name=${1%%=*} value=${1#*=} ;;
       --*) name=$1 value=${2-}
         (($# >= 2)) || fail "$1 needs a value"
@@ -138,10 +143,10 @@ for one in ${noise_seed//,/ }; do whole_number noise_seed "$one"; done
   fail "--log_level = $log_level, must be one of trace, debug, info, warning, error, critical, off"
 [[ -n $scenario ]] || fail "--scenario is missing"
 [[ ! -e $scenario || $scenario == /* ]] || scenario=$PWD/$scenario
-[[ -e $scenario ]] || scenario=$root/launch_scripts/scenarios/${scenario%.yaml}.yaml
+[[ -e $scenario ]] || scenario=$here/scenarios/${scenario%.yaml}.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario"
 [[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + ids[0]))
-[[ -n $out ]] || out=$root/runs/vehicle_$(name_of "$vehicle_ids")
+[[ -n $out ]] || out=$runs/vehicle_$(name_of "$vehicle_ids")
 if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/run.json"; then
   fail "--out = $out: a finished run, must be a new folder; --only requires a running one"
 fi

@@ -40,11 +40,9 @@ std::string campaign_json(const std::string& kind, const EvaluationOrigin& origi
 }
 
 bool make_report(const std::string& program, const std::filesystem::path& folder) {
-  const std::filesystem::path script =
-      (program_folder() / "../../../vehicle_sim/report/report.sh").lexically_normal();
+  const std::filesystem::path script = program_folder() / "report/report.sh";
   if (::access(script.c_str(), X_OK) != 0) {
-    std::cerr << program << ": " << script.string()
-              << ": not found, must be as in the source folder\n";
+    std::cerr << program << ": " << script.string() << ": not found, must be beside the program\n";
     return false;
   }
   if (run_program({script.string(), folder.string()})) return true;

@@ -24,11 +24,10 @@ struct EvaluationOrigin {
 [[nodiscard]] std::string campaign_json(const std::string& kind, const EvaluationOrigin& origin,
                                         const nlohmann::ordered_json& content);
 
-/// Makes the page report.md of the folder, by vehicle_sim/report/report.sh. Its messages go to this
-/// program's output and errors. If it is not made, stderr has a line that begins with the program's
-/// name, and the rows stay.
+/// Makes the page report.md of the folder, by report/report.sh beside this program. Its messages go
+/// to this program's output and errors. If it is not made, stderr has a line that begins with the
+/// program's name, and the rows stay.
 /// @param folder  with campaign.json and its rows
-/// @pre this program is build/PRESET/bin/NAME
 [[nodiscard]] bool make_report(const std::string& program, const std::filesystem::path& folder);
 
 /// Exit code of programs: all but the report is there.

@@ -11,13 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a program of the build tree and one of a flat folder find it.
-fs::path script() {
-  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
-  const fs::path beside = folder / "report/draw.sh";
-  const fs::path of_sources = folder / "../../../vehicle_sim/report/draw.sh";
-  return fs::exists(beside) || !fs::exists(of_sources) ? beside : of_sources.lexically_normal();
-}
+fs::path script() { return fs::read_symlink("/proc/self/exe").parent_path() / "report/draw.sh"; }
 
 }  // namespace
 

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Draws for the programs of the planner. Lies in vehicle_sim/report of the sources, or in report beside the programs.
+# Draws for the programs of the planner.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
+# shellcheck source=SCRIPTDIR/environment.sh
+source "$here/environment.sh"
 
 usage() {
   cat <<'TEXT'
@@ -19,20 +21,11 @@ TEXT
 
 case "${1-}" in
   -h | --help) usage; exit 0 ;;
-  --version)
-    [[ ! -e $here/../../launch_scripts/version.sh ]] || exec "$here/../../launch_scripts/version.sh" draw.sh
-    version=$("$here/../show_scenario" --version)
-    echo "draw.sh ${version#* }"
-    exit 0 ;;
+  --version) exec "$scripts/version.sh" draw.sh ;;
   -*) echo "draw.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;
 esac
 (($# == 3)) || { echo "draw.sh: $# values, must be KIND DATA OUT (see --help)" >&2; exit 2; }
-if [[ -e $here/../../launch_scripts/python_environment.sh ]]; then
-  make=$here/../../launch_scripts/python_environment.sh environment=$here/../../build/report_environment
-else
-  make=$here/python_environment.sh environment=$here/../report_environment
-fi
-if ! reason=$("$make" "$environment" "$here/requirements.txt" 2>&1); then
+if ! reason=$("$scripts/python_environment.sh" "$environment" "$here/requirements.txt" 2>&1); then
   echo "draw.sh: $3 is not drawn, Python's packages of $here/requirements.txt are missing: ${reason##*$'\n'}" >&2
   exit 3
 fi

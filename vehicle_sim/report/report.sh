@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # Tables, statistics and figures of a folder that evaluate or compare_priorities wrote.
 set -uo pipefail
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+here=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
+# shellcheck source=SCRIPTDIR/environment.sh
+source "$here/environment.sh"
 
 usage() {
   cat <<'TEXT'
 usage: report.sh OUT
   OUT  a folder of evaluate or compare_priorities, with campaign.json, runs.csv and what belongs to them
 Writes OUT/report.md, the page, and OUT/report/ with the data of every table and the figures.
-Python's packages are installed once, into build/report_environment.
+Python's packages are installed once, into build/report_environment of the sources, or the user's cache (hlc/report_environment).
 Examples:
   report.sh runs/table_2
   report.sh runs/priorities
@@ -19,11 +21,10 @@ TEXT
 fail() { echo "report.sh: $1" >&2; exit 2; }
 case "${1-}" in
   -h | --help) usage; exit 0 ;;
-  --version) exec "$root/launch_scripts/version.sh" report.sh ;;
+  --version) exec "$scripts/version.sh" report.sh ;;
   -*) fail "unknown flag $1, must be --help or a folder" ;;
 esac
 (($# == 1)) || fail "$# folders, must be one, see --help"
 
-environment=$root/build/report_environment
-"$root/launch_scripts/python_environment.sh" "$environment" "$root/vehicle_sim/report/requirements.txt" || exit 3
-PYTHONPATH=$root/vehicle_sim PYTHONDONTWRITEBYTECODE=1 exec "$environment/bin/python" -m report "$1"
+"$scripts/python_environment.sh" "$environment" "$here/requirements.txt" || exit 3
+PYTHONPATH=$(dirname "$here") PYTHONDONTWRITEBYTECODE=1 exec "$environment/bin/python" -m report "$1"

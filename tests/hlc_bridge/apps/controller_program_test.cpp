@@ -124,8 +124,8 @@ TEST_F(TwoControllers, EndWithTheProgramThatWasStarted) {
 TEST(ControllerProgram, FindsItsScenarioBesideItselfWhereverItIsInstalled) {
   const TemporaryFolder folder;
   const std::string lab = (folder / "lab").string();
-  ASSERT_EQ(std::system(("cmake --install " + test::build_folder() + " --prefix " + lab +
-                         " > /dev/null 2>&1")
+  ASSERT_EQ(std::system(("cmake --install " + test::build_folder() + " --component lab --prefix " +
+                         lab + " > /dev/null 2>&1")
                             .c_str()),
             0);
   const DomainReservation domains{2};
