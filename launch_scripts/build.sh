@@ -6,9 +6,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 usage() {
   cat <<'TEXT'
 usage: build.sh [--preset release|debug|asan|tsan|coverage]
-                [--programs | --unit_tests | --thread_tests | --tests_of FOLDER]
+                [--programs | --run_programs | --unit_tests | --thread_tests | --tests_of FOLDER]
   --preset NAME   what to build (default release), into build/NAME
   --programs      only the programs, no tests
+  --run_programs  of these only what a run of run_lab.sh starts
   --unit_tests    only the single-process tests
   --thread_tests  the subset of these from folders with threads
   --tests_of FOLDER  only the tests in tests/FOLDER and their dependencies; with the preset tsan only those with threads
@@ -30,7 +31,7 @@ while (($#)); do
       ;;
     --preset=*) preset=${1#*=} ;;
     --tests_of=*) targets=(--target "tests/${1#*=}/all") ;;
-    --programs | --unit_tests | --thread_tests) targets=(--target "${1#--}") ;;
+    --programs | --run_programs | --unit_tests | --thread_tests) targets=(--target "${1#--}") ;;
     -h | --help) usage; exit 0 ;;
     --version) exec "$root/launch_scripts/version.sh" build.sh ;;
     *) echo "build.sh: unknown flag $1 (see --help)" >&2; exit 2 ;;

@@ -140,9 +140,12 @@ esac
 [[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$here/scenarios" && echo *.yaml)"
 
 [[ -n $bin ]] || bin=$programs
-if $build && [[ -z $bin ]]; then
+[[ -z $bin ]] || build=false
+build_programs() { ! $build || "$here/build.sh" --preset "$preset" "$1" || exit 1; }
+if $build; then
   "$here/setup.sh" || exit 1
-  "$here/build.sh" --preset "$preset" --programs || exit 1
+  build_programs --run_programs
+  ! $view || build_programs --programs
 fi
 [[ -n $bin ]] || bin=$root/build/$preset/bin
 [[ -x $bin/lab_control ]] || fail "no programs in $bin; leave out --no_build and --bin"
@@ -163,6 +166,7 @@ read -r guests by_hand < <(tail -n 1 <<<"$starts")
 period_ms=$(tail -n 2 <<<"$starts" | head -n 1)
 steps=$(tail -n 3 <<<"$starts" | head -n 1)
 starts=$(head -n -3 <<<"$starts")
+[[ $by_hand == - ]] || build_programs --programs # drive_by_hand
 guest_ids=()
 [[ $guests == - ]] || mapfile -t guest_ids < <(tr , '\n' <<<"$guests")
 for id in "${guest_ids[@]}"; do
