@@ -7,7 +7,7 @@ packages=(
   libfastrtps-dev libfastcdr-dev fastddsgen
   libeigen3-dev libnlopt-dev libnlopt-cxx-dev libompl-dev libboost-dev
   libspdlog-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libtinyxml2-dev libssl-dev
-  libgtest-dev libgmock-dev python3-venv
+  libgtest-dev libgmock-dev python3-venv python3-dev pybind11-dev
   procps util-linux iproute2
 )
 

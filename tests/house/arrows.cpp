@@ -93,6 +93,9 @@ const Arrows kArrows{
     {"vehicle_sim/campaign",
      {"hlc_bridge/messages", "hlc_bridge/result", "vehicle_sim/closed_loop", "vehicle_sim/vehicle",
       "vehicle_sim/plant", "vehicle_sim/tracking", "planner"}},
+    // Without DDS, clocks and threads: a run in Python is a function.
+    {"vehicle_sim/python",
+     {"hlc_bridge/messages", "hlc_bridge/result", "vehicle_sim/closed_loop", "planner"}},
     {"vehicle_sim/apps",
      {"vehicle_sim", "hlc_bridge/process/shell.hpp", "hlc_bridge/process/log.hpp", "hlc_bridge/dds",
       "hlc_bridge/machine", "hlc_bridge/mcap/recorded_messages.hpp", "hlc_bridge/time",

@@ -48,6 +48,7 @@ const std::vector<Outside> kOutside{
      "XML is read and written in planner/road, drawings in planner/plot"},
     {"^spdlog/.*", "^(hlc_bridge/(process|apps)|vehicle_sim/apps)/.*", "only processes log"},
     {"^CLI/.*", "^planner/apps/cli.hpp", "CLI11 has one entry, planner/apps/cli.hpp"},
+    {"^pybind11/.*", "^vehicle_sim/python/.*", "only the Python package knows Python"},
     {"^boost/(asio|beast)[/.].*", "^hlc_bridge/live/boost_beast.hpp",
      "Boost.Asio and Boost.Beast have one entry, hlc_bridge/live/boost_beast.hpp"},
     {"^(thread|mutex|condition_variable|future|chrono|iostream|ctime)$",
@@ -173,6 +174,7 @@ TEST(House, AForeignHeaderInTheWrongPlaceIsNoticed) {
                         "planner/maneuver_design/pareto_front.hpp"));
   EXPECT_TRUE(violation("hlc_bridge/live/server.cpp", "boost/asio/io_context.hpp"));
   EXPECT_TRUE(violation("planner/apps/rollout.cpp", "CLI/CLI.hpp"));
+  EXPECT_TRUE(violation("planner/rollout/rollout.cpp", "pybind11/pybind11.h"));
   EXPECT_FALSE(
       violation("hlc_bridge/dds/fast_dds.cpp", "fastdds/dds/domain/DomainParticipant.hpp"));
 }

@@ -1,0 +1,106 @@
+"""Runs: the programs' hash, threads, forks, tables."""
+
+import json
+import os
+import subprocess
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import hlc
+
+BUILD = Path(os.environ["HLC_BUILD"])
+
+
+def program(name, *arguments):
+    return subprocess.run([BUILD / "bin" / name, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+class RunTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.three = hlc.load_scenario("paper_three_cars", steps=30)
+        cls.driven = hlc.drive(cls.three)
+
+    def test_a_run_has_the_hash_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sweep = Path(folder) / "sweep.yaml"
+            scenario = hlc.data_folder().resolve() / "scenarios" / "paper_three_cars.yaml"
+            sweep.write_text(f"scenarios: [{scenario}]\nsubgraphs: [B]\nstarts: 1\nsteps: 30\n"
+                             "settings:\n  coordination: [cooperative]\n")
+            done = program("evaluate", "--sweep", sweep, "--out", Path(folder) / "out")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            rows = (Path(folder) / "out" / "runs.jsonl").read_text().splitlines()
+            hashes = [row["trace_sha256"] for row in map(json.loads, rows) if "trace_sha256" in row]
+        self.assertEqual(hashes, [self.driven.trace_sha256])
+
+    def test_runs_in_two_threads_are_the_same_as_one_after_the_other(self):
+        found = {}
+        threads = [threading.Thread(target=lambda i=i: found.update({i: hlc.drive(self.three).trace_sha256}))
+                   for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, {0: self.driven.trace_sha256, 1: self.driven.trace_sha256})
+
+    def test_the_lock_is_released_while_driving(self):
+        # Were the lock held throughout, this thread would not get on before the run is over.
+        counts = []
+        thread = threading.Thread(target=lambda: counts.append(hlc.drive(self.three, steps=150)))
+        thread.start()
+        steps = 0
+        while thread.is_alive():
+            steps += 1
+        thread.join()
+        self.assertEqual(len(counts), 1)
+        self.assertGreater(steps, 1000)
+
+    def test_arrays_have_a_row_per_step_and_a_column_per_vehicle(self):
+        self.assertEqual(self.driven.planned.shape, (30, 3, 3))
+        self.assertEqual(self.driven.vehicles, (1, 2, 3))
+        self.assertTrue(np.isfinite(self.driven.driven).all())
+        self.assertLess(np.linalg.norm(self.driven.planned[..., :2] - self.driven.driven[..., :2], axis=2).max(), 0.05)
+        for i, vehicle in enumerate(self.three.vehicles):
+            np.testing.assert_allclose(self.driven.planned[0, i], vehicle.start, atol=1e-9)
+
+    def test_tables_hold_what_the_arrays_hold(self):
+        steps = self.driven.steps
+        self.assertEqual(len(steps), 90)
+        blue = steps[steps.vehicle == 2]
+        np.testing.assert_array_equal(blue.planned_x_m, self.driven.planned[:, 1, 0])
+        self.assertIn("planned", set(steps.status))
+        trajectories = self.driven.trajectories
+        at_start = trajectories[(trajectories.vehicle == 2) & (trajectories.t_s == 0.0)]
+        np.testing.assert_array_equal(at_start[["x_m", "y_m"]].to_numpy()[0], self.driven.driven[0, 1, :2])
+
+    def test_a_rollout_is_repeated_and_has_no_driven_poses(self):
+        first = hlc.rollout(self.three)
+        self.assertEqual(first.trace_sha256, hlc.rollout(self.three).trace_sha256)
+        self.assertTrue(np.isnan(first.driven).all())
+        np.testing.assert_allclose(first.planned[:, :, :2], self.driven.planned[:, :, :2], atol=0.2)
+        self.assertTrue(first.trajectories.empty)
+
+    def test_noise_changes_the_run_and_its_seed_repeats_it(self):
+        noisy = hlc.drive(self.three, noise_seed=7)
+        self.assertNotEqual(noisy.trace_sha256, self.driven.trace_sha256)
+        self.assertEqual(noisy.trace_sha256, hlc.drive(self.three, noise_seed=7).trace_sha256)
+
+    def test_a_replay_is_the_same_and_a_fork_differs_from_its_step_on(self):
+        self.assertEqual(hlc.replay(self.driven).trace_sha256, self.driven.trace_sha256)
+        fork = hlc.replay(self.driven, forks=[hlc.Fork(10, ["speed=1:0.4"])])
+        np.testing.assert_array_equal(fork.planned[:11], self.driven.planned[:11])
+        self.assertFalse(np.array_equal(fork.planned, self.driven.planned))
+
+    def test_a_vehicle_that_is_gone_has_no_poses(self):
+        fork = hlc.replay(self.driven, forks=[hlc.Fork(10, ["without=3"])])
+        self.assertTrue(np.isnan(fork.planned[12:, 2]).all())
+        self.assertTrue(np.isfinite(fork.planned[:10]).all())
+
+    def test_a_named_strategy_is_that_of_the_scenario(self):
+        other = hlc.load_scenario("paper_three_cars", steps=5, priorities="colouring")
+        self.assertEqual(other.priorities, "colouring")
+        self.assertEqual(hlc.drive(other).planned.shape, (5, 3, 3))

@@ -1,0 +1,45 @@
+"""Where the shipped scenarios, automata and problems are."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Union
+
+from hlc._core import Error
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+def data_folder() -> Path:
+    """Folder of the shipped files: scenarios, automata, labs, maps, problems."""
+    return Path(__file__).parent / "data"
+
+
+def scenario_names() -> list[str]:
+    """Names that `load_scenario` takes."""
+    return sorted(file.stem for file in (data_folder() / "scenarios").glob("*.yaml"))
+
+
+def find(path_or_name: PathLike, kind: str, extension: str) -> Path:
+    """The file itself, or for a bare name the shipped one.
+
+    kind: folder of data_folder(), for example "scenarios".
+    """
+    given = Path(path_or_name)
+    if given.is_file() or given.suffix or len(given.parts) != 1:
+        return given
+    folder = data_folder() / kind
+    file = folder / (given.name + extension)
+    if file.is_file():
+        return file
+    names = ", ".join(sorted(one.stem for one in folder.glob("*" + extension)))
+    raise Error(f"{kind}: {given}, must be a file, or one of {names}")
+
+
+def check_whole(name: str, value: object, least: int, most: int) -> None:
+    """Raises Error unless the value is None or a whole number in least ... most."""
+    if value is None:
+        return
+    if isinstance(value, bool) or not hasattr(value, "__index__") or not least <= int(value) <= most:  # type: ignore
+        raise Error(f"{name} = {value!r}, must be a whole number in {least} ... {most}")

@@ -1,0 +1,33 @@
+#include <exception>
+#include <stdexcept>
+
+#include "vehicle_sim/python/module/bindings.hpp"
+
+namespace hlc::python {
+namespace {
+
+/// Exceptions of Python functions that were called do not come here: they pass unchanged.
+void translate(std::exception_ptr thrown, PyObject* error) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const py::builtin_exception&) {
+    throw;  // of the bindings themselves, such as a TypeError
+  } catch (const std::invalid_argument& refused) {
+    PyErr_SetString(error, refused.what());
+  } catch (const std::runtime_error& failed) {
+    PyErr_SetString(error, failed.what());
+  }
+}
+
+}  // namespace
+
+void bind_errors(py::module_& module) {
+  // The translator is a function without state; the module owns the class and is never unloaded.
+  static PyObject* error =
+      py::exception<std::invalid_argument>(module, "Error", PyExc_ValueError).release().ptr();
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    if (thrown) translate(thrown, error);
+  });
+}
+
+}  // namespace hlc::python
