@@ -80,6 +80,10 @@ std::vector<coordination::Report> Rollout::step() {
 }
 
 Rollout make_rollout(const scenario::Scenario& scenario) {
+  return make_rollout(scenario, scenario::prepare_subgraph_of(scenario));
+}
+
+Rollout make_rollout(const scenario::Scenario& scenario, const controller::PreparedSubgraph& on) {
   if (!scenario.guests.empty()) {
     throw std::invalid_argument(
         fmt::format("{}: guests = {}, must be 0 here: run_lab.sh and evaluate drive them",
@@ -87,9 +91,8 @@ Rollout make_rollout(const scenario::Scenario& scenario) {
   }
   std::vector<std::unique_ptr<controller::Controller>> controllers;
   std::vector<Pose> starts;
-  const controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(scenario);
   for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
-    controllers.push_back(scenario::make_controller(scenario, vehicle.id, prepared));
+    controllers.push_back(scenario::make_controller(scenario, vehicle.id, on));
     starts.push_back(vehicle.start);
   }
   Rollout rollout(std::move(controllers), starts);

@@ -6,6 +6,7 @@
 
 #include "planner/controller/controller.hpp"
 #include "planner/controller/joint_step.hpp"
+#include "planner/controller/prepared_subgraph.hpp"
 #include "planner/policy/subgraph_selector.hpp"
 #include "planner/scenario/scenario.hpp"
 
@@ -59,5 +60,8 @@ class Rollout {
 /// All vehicles of the scenario, standing at their starts, with its policy, if it has one.
 /// @throws std::invalid_argument with one line if it has guests: nobody drives them here
 [[nodiscard]] Rollout make_rollout(const scenario::Scenario& scenario);
+/// The same for who makes several. @param on  prepare_subgraph_of the scenario
+[[nodiscard]] Rollout make_rollout(const scenario::Scenario& scenario,
+                                   const controller::PreparedSubgraph& on);
 
 }  // namespace hlc::rollout

@@ -94,6 +94,12 @@ class LearningTest(unittest.TestCase):
                 break
         self.assertEqual(result.terminated.tolist(), [[True, True]])
 
+    def test_many_cars_find_room(self):
+        environments = hlc.Environments(hlc.load_scenario("lab_cars", cars=20), 2)
+        result = environments.reset(1)
+        self.assertEqual(result.observations.shape, (2, 20, 105))
+        self.assertFalse(result.terminated.any())
+
     def test_what_a_permitted_action_leads_to_is_that_trim(self):
         environments = hlc.Environments(self.three, 16, episode_steps=1000)
         result = environments.reset(1)

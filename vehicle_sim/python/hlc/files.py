@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Union
+from typing import SupportsIndex, Union
 
 from hlc._core import Error
 
@@ -41,5 +41,5 @@ def check_whole(name: str, value: object, least: int, most: int) -> None:
     """Raises Error unless the value is None or a whole number in least ... most."""
     if value is None:
         return
-    if isinstance(value, bool) or not hasattr(value, "__index__") or not least <= int(value) <= most:  # type: ignore
+    if isinstance(value, bool) or not isinstance(value, SupportsIndex) or not least <= int(value) <= most:
         raise Error(f"{name} = {value!r}, must be a whole number in {least} ... {most}")

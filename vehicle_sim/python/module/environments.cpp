@@ -17,6 +17,11 @@ using automaton::Maneuver;
 
 constexpr std::array<double, 4> kLookAhead_m{0.2, 0.4, 0.8, 1.6};
 constexpr int kMostDraws = 1000;
+constexpr double kHalfChord_m = 0.05;
+
+bool meet(const ConvexPolygon& a, const ConvexPolygon& b) {
+  return overlap(bounding_box(a), bounding_box(b)) && intersects(a, b);
+}
 
 /// In each row the edge to that trim, else the one to the slowest trim in reach.
 std::vector<std::vector<const Maneuver*>> edge_table(const automaton::Subgraph& subgraph) {
@@ -62,7 +67,8 @@ std::vector<std::vector<Segment>> bounds_along(const scenario::ScenarioVehicle& 
 }  // namespace
 
 Environments::Environments(const scenario::Scenario& scenario, const EnvironmentOptions& options)
-    : subgraph_(scenario.subgraph),
+    : file_(scenario.file.string()),
+      subgraph_(scenario.subgraph),
       options_(options),
       reference_m_(scenario.reference_speed_mps * scenario.subgraph->automaton().step_s),
       edges_(edge_table(*scenario.subgraph)),
@@ -70,8 +76,8 @@ Environments::Environments(const scenario::Scenario& scenario, const Environment
   HLC_DEMAND(options.num_environments >= 1 && options.episode_steps >= 1, options.num_environments,
              options.episode_steps);
   if (!scenario.guests.empty()) {
-    throw std::invalid_argument(fmt::format("{}: guests = {}, must be 0 for learners",
-                                            scenario.file.string(), scenario.guests.size()));
+    throw std::invalid_argument(
+        fmt::format("{}: guests = {}, must be 0 for learners", file_, scenario.guests.size()));
   }
   const automaton::UniversalAutomaton& all = subgraph_->automaton();
   const double reach_m =
@@ -86,34 +92,39 @@ Environments::Environments(const scenario::Scenario& scenario, const Environment
     obstacles_m_.push_back(one.area_m);
 }
 
-bool Environments::draw_starts(Environment& environment) {
-  const automaton::Maneuver& standing =
-      *edges_[subgraph_->standstill().index][subgraph_->standstill().index];
-  for (std::size_t i = 0; i < routes_.size(); ++i) {
-    const Route& route = routes_[i];
-    Car& car = environment.cars[i];
-    car = {.pose = route.start, .trim = subgraph_->standstill().index, .s_m = route.start_s_m};
-    if (options_.has_random_starts) {
-      car.s_m =
-          route.path.length_m() * (static_cast<double>(environment.random() >> 11U) * 0x1p-53);
-      const Point position_m = route.path.at(car.s_m);
-      car.pose = {position_m.x(), position_m.y(), chord_heading_rad(route.path, car.s_m, 0.05)};
-    }
-    car.area_m = transformed(standing.swept_area_m, car.pose);
-    car.is_terminated = leaves_lanes(route, car.s_m, transformed(standing.lane_area_m, car.pose));
+void Environments::place(Environment& environment, std::size_t index) const {
+  const Route& route = routes_[index];
+  Car& car = environment.cars[index];
+  const std::size_t trim = subgraph_->standstill().index;
+  const Maneuver& standing = *edges_[trim][trim];
+  car = {.pose = route.start, .trim = trim, .s_m = route.start_s_m};
+  if (options_.has_random_starts) {
+    car.s_m = route.path.length_m() * (static_cast<double>(environment.random() >> 11U) * 0x1p-53);
+    const Point position_m = route.path.at(car.s_m);
+    car.pose = {position_m.x(), position_m.y(),
+                chord_heading_rad(route.path, car.s_m, kHalfChord_m)};
   }
-  terminate_who_meet(environment);
-  return std::ranges::none_of(environment.cars, &Car::is_terminated);
+  car.area_m = transformed(standing.swept_area_m, car.pose);
+  car.is_terminated = leaves_lanes(route, car.s_m, transformed(standing.lane_area_m, car.pose)) ||
+                      meets_obstacle(car) ||
+                      std::any_of(environment.cars.begin(),
+                                  environment.cars.begin() + static_cast<std::ptrdiff_t>(index),
+                                  [&](const Car& other) { return meet(car.area_m, other.area_m); });
 }
 
-void Environments::begin(Environment& environment) {
-  environment.cars.resize(routes_.size());
+void Environments::begin(Environment& environment) const {
+  environment.cars.resize(num_cars());
   environment.step = 0;
-  for (int i = 0; !draw_starts(environment); ++i) {
-    if (options_.has_random_starts && i < kMostDraws) continue;
-    throw std::invalid_argument(
-        "starts of the cars: they meet each other or a bound of their "
-        "lanes, must be apart");
+  for (std::size_t i = 0; i < num_cars(); ++i) {
+    int draws = 0;
+    do {
+      place(environment, i);
+    } while (environment.cars[i].is_terminated && options_.has_random_starts &&
+             ++draws < kMostDraws);
+    if (!environment.cars[i].is_terminated) continue;
+    throw std::invalid_argument(fmt::format(
+        "{}: no start of car {} keeps clear of bounds, obstacles and the cars before it", file_,
+        i + 1));
   }
 }
 
@@ -126,19 +137,20 @@ bool Environments::leaves_lanes(const Route& route, double s_m, const ConvexPoly
   });
 }
 
+bool Environments::meets_obstacle(const Car& car) const {
+  return std::ranges::any_of(obstacles_m_,
+                             [&](const ConvexPolygon& area_m) { return meet(car.area_m, area_m); });
+}
+
 void Environments::terminate_who_meet(Environment& environment) const {
   std::vector<Car>& cars = environment.cars;
   for (std::size_t i = 0; i < cars.size(); ++i) {
-    const Box box = bounding_box(cars[i].area_m);
-    const auto meets = [&](const ConvexPolygon& other) {
-      return overlap(box, bounding_box(other)) && intersects(cars[i].area_m, other);
-    };
+    if (meets_obstacle(cars[i])) cars[i].is_terminated = true;
     for (std::size_t j = 0; j < i; ++j) {
-      if (!meets(cars[j].area_m)) continue;
+      if (!meet(cars[i].area_m, cars[j].area_m)) continue;
       cars[i].is_terminated = true;
       cars[j].is_terminated = true;
     }
-    if (std::ranges::any_of(obstacles_m_, meets)) cars[i].is_terminated = true;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
@@ -66,6 +67,7 @@ class Environments {
   [[nodiscard]] std::size_t num_features() const { return kOwn + kOther * (num_cars() - 1); }
 
   /// A new episode everywhere; environment i draws with seed + i. Before the first step.
+  /// @throws std::invalid_argument with one line, also from `step`, if there is no room for a car
   void reset(std::uint64_t seed, Observed& observed);
   [[nodiscard]] bool has_begun() const { return !environments_.front().cars.empty(); }
   /// @param actions  [environment][car]. @pre has_begun, all are below num_actions
@@ -95,16 +97,19 @@ class Environments {
   };
   static constexpr double kWindow_m = 0.2;
 
-  void begin(Environment& environment);
-  [[nodiscard]] bool draw_starts(Environment& environment);
+  void begin(Environment& environment) const;
+  /// At its start, or a random one; terminated if it meets a bound, an obstacle or a car before it.
+  void place(Environment& environment, std::size_t index) const;
   [[nodiscard]] bool leaves_lanes(const Route& route, double s_m,
                                   const ConvexPolygon& area_m) const;
+  [[nodiscard]] bool meets_obstacle(const Car& car) const;
   void terminate_who_meet(Environment& environment) const;
   /// @return its reward without the one for termination
   double move(const Route& route, std::size_t action, Car& car) const;
   void observe(std::size_t index, Observed& observed) const;
   void prepare(Observed& observed) const;
 
+  std::string file_;  ///< of the scenario, for messages
   std::shared_ptr<const automaton::Subgraph> subgraph_;
   EnvironmentOptions options_;
   double reference_m_;  ///< the way of one step at the reference speed

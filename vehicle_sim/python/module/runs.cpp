@@ -148,7 +148,7 @@ py::dict rollout(const LoadedScenario& loaded, std::optional<std::size_t> steps,
   {
     const py::gil_scoped_release release;
     facts.period = static_cast<Nanoseconds>(1e9 * scenario.subgraph->automaton().step_s + 0.5);
-    rollout::Rollout vehicles = rollout::make_rollout(scenario);
+    rollout::Rollout vehicles = rollout::make_rollout(scenario, loaded.prepared);
     for (const scenario::ScenarioVehicle& one : scenario.vehicles)
       facts.vehicle_ids.push_back(one.id.value);
     facts.first_step = vehicles.next_step().value;
