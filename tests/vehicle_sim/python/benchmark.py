@@ -6,6 +6,7 @@ SECONDS: for which 1000 environments are stepped; default 60
 
 import os
 import re
+import statistics
 import subprocess
 import sys
 import time
@@ -29,9 +30,9 @@ def resident_mb():
 
 
 def compare(one, other):
-    """Ratio of the least times of both, measured in turn: another program's load only adds."""
+    """Ratio of the medians, measured in turn."""
     pairs = [(one(), other()) for _ in range(REPEATS)]
-    return min(a for a, b in pairs) / min(b for a, b in pairs)
+    return statistics.median(a for a, b in pairs) / statistics.median(b for a, b in pairs)
 
 
 def step_rate(environments, seconds):

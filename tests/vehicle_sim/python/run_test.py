@@ -3,8 +3,10 @@
 import json
 import os
 import subprocess
+import sys
 import tempfile
 import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -48,16 +50,27 @@ class RunTest(unittest.TestCase):
         self.assertEqual(found, {0: self.driven.trace_sha256, 1: self.driven.trace_sha256})
 
     def test_the_lock_is_released_while_driving(self):
-        # Were the lock held throughout, this thread would not get on before the run is over.
-        counts = []
-        thread = threading.Thread(target=lambda: counts.append(hlc.drive(self.three, steps=150)))
-        thread.start()
-        steps = 0
-        while thread.is_alive():
-            steps += 1
-        thread.join()
-        self.assertEqual(len(counts), 1)
-        self.assertGreater(steps, 1000)
+        # With so long an interval a thread gets on only where the other one releases the lock itself.
+        interval = sys.getswitchinterval()
+        self.addCleanup(sys.setswitchinterval, interval)
+        for run in (hlc.drive, hlc.rollout):
+            turns = [0]
+            during = []
+
+            def drive(run=run, turns=turns, during=during):
+                before = turns[0]
+                run(self.three)
+                during.append(turns[0] - before)
+
+            sys.setswitchinterval(60.0)
+            thread = threading.Thread(target=drive)
+            thread.start()
+            while thread.is_alive():
+                turns[0] += 1
+                time.sleep(0)
+            thread.join()
+            sys.setswitchinterval(interval)
+            self.assertGreater(during[0], 0)
 
     def test_arrays_have_a_row_per_step_and_a_column_per_vehicle(self):
         self.assertEqual(self.driven.planned.shape, (30, 3, 3))

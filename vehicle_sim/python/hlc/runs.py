@@ -108,7 +108,7 @@ def rollout(scenario: Scenario, *, steps: Optional[int] = None, priorities: Opti
     """Plans a whole run with vehicles that follow their plans perfectly: planning and coordination only.
 
     steps: instead of the scenario's
-    priorities: an own rule; called in every step, it costs some 20 us each. Its exceptions end this run alone
+    priorities: an own rule, called in every step; slower than ours. Its exceptions end this run alone
 
     The interpreter's lock is released: runs in several threads run at the same time. Raises Error.
     """
