@@ -57,9 +57,11 @@ Point in_frame(const Point& point_m, const Pose& frame) {
 
 std::vector<std::vector<Segment>> bounds_along(const scenario::ScenarioVehicle& vehicle,
                                                double window_m, double reach_m) {
-  std::vector<std::vector<Segment>> bounds;
-  for (double s_m = 0.0; s_m <= vehicle.path.length_m(); s_m += window_m) {
-    bounds.push_back(vehicle.corridor.boundary_m(s_m - reach_m, s_m + window_m + reach_m));
+  std::vector<std::vector<Segment>> bounds(
+      static_cast<std::size_t>(vehicle.path.length_m() / window_m) + 1);
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const double s_m = window_m * static_cast<double>(i);
+    bounds[i] = vehicle.corridor.boundary_m(s_m - reach_m, s_m + window_m + reach_m);
   }
   return bounds;
 }

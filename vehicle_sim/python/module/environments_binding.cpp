@@ -20,7 +20,8 @@ using Actions = py::array_t<std::int64_t, py::array::c_style>;
 py::tuple tuple_of(const Environments& environments, const Observed& observed) {
   const std::size_t num = environments.num_environments();
   const std::size_t cars = environments.num_cars();
-  const auto flags = [](const std::vector<std::uint8_t>& numbers, std::vector<std::size_t> shape) {
+  const auto flags = [](const std::vector<std::uint8_t>& numbers,
+                        const std::vector<std::size_t>& shape) {
     return new_array(shape, numbers.data()).attr("view")("bool");
   };
   return py::make_tuple(

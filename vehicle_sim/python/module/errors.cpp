@@ -7,7 +7,7 @@ namespace hlc::python {
 namespace {
 
 /// Exceptions of Python functions that were called do not come here: they pass unchanged.
-void translate(std::exception_ptr thrown, PyObject* error) {
+void translate(const std::exception_ptr& thrown, PyObject* error) {
   try {
     std::rethrow_exception(thrown);
   } catch (const py::builtin_exception&) {
@@ -25,7 +25,7 @@ void bind_errors(py::module_& module) {
   // The translator is a function without state; the module owns the class and is never unloaded.
   static PyObject* error =
       py::exception<std::invalid_argument>(module, "Error", PyExc_ValueError).release().ptr();
-  py::register_exception_translator([](std::exception_ptr thrown) {
+  py::register_exception_translator([](std::exception_ptr thrown) {  // NOLINT: pybind11's type
     if (thrown) translate(thrown, error);
   });
 }

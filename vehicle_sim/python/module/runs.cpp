@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -147,7 +147,8 @@ py::dict rollout(const LoadedScenario& loaded, std::optional<std::size_t> steps,
   result::RunFacts facts{.steps = scenario.steps};
   {
     const py::gil_scoped_release release;
-    facts.period = static_cast<Nanoseconds>(1e9 * scenario.subgraph->automaton().step_s + 0.5);
+    facts.period =
+        static_cast<Nanoseconds>(std::llround(1e9 * scenario.subgraph->automaton().step_s));
     rollout::Rollout vehicles = rollout::make_rollout(scenario, loaded.prepared);
     for (const scenario::ScenarioVehicle& one : scenario.vehicles)
       facts.vehicle_ids.push_back(one.id.value);
