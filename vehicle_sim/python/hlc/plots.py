@@ -29,7 +29,10 @@ def _named(runs: Union[Run, Mapping[str, Run]]) -> dict[str, Run]:
 
 
 def plot_paths(runs: Union[Run, Mapping[str, Run]], axes: Optional[Axes] = None) -> Axes:
-    """Paths of the vehicles over their routes; several runs by name, each with its own kind of line."""
+    """Paths of the vehicles over their routes; several runs by name, each with its own kind of line. A vehicle whose name
+    is a colour has that one."""
+    from matplotlib.colors import is_color_like
+
     axes = _axes(axes)
     for line, (name, run) in zip(LINES * len(_named(runs)), _named(runs).items()):
         vehicles = run.scenario.vehicles
@@ -38,7 +41,8 @@ def plot_paths(runs: Union[Run, Mapping[str, Run]], axes: Optional[Axes] = None)
             if line == LINES[0]:
                 route = np.vstack([vehicle.route_m, vehicle.route_m[:1]]) if vehicle.is_closed else vehicle.route_m
                 axes.plot(*route.T, color="0.85", linewidth=4, zorder=0)
-            axes.plot(poses[:, i, 0], poses[:, i, 1], line, color=f"C{i}", label=f"{vehicle.name} {name}".strip())
+            colour = vehicle.name if is_color_like(vehicle.name) else f"C{i}"
+            axes.plot(poses[:, i, 0], poses[:, i, 1], line, color=colour, label=f"{vehicle.name} {name}".strip())
         for area in run.scenario.obstacles_m:
             axes.fill(*area.T, color="0.4")
     axes.set_aspect("equal")
@@ -49,7 +53,7 @@ def plot_paths(runs: Union[Run, Mapping[str, Run]], axes: Optional[Axes] = None)
 
 
 def plot_ways(runs: Union[Run, Mapping[str, Run]], axes: Optional[Axes] = None) -> Axes:
-    """Way driven over time: planned way [m] of all vehicles together; several runs by name."""
+    """Planned way [m] of all vehicles together over time: steeper is faster. Several runs by name."""
     axes = _axes(axes)
     for name, run in _named(runs).items():
         way = np.linalg.norm(np.diff(run.planned[..., :2], axis=0), axis=2)
