@@ -34,11 +34,26 @@ struct RunChoices {
   py::object priorities;  ///< a function, or None: the scenario's
 };
 
-/// A pending Ctrl-C ends the run as an exception of Python.
-void check_signals() {
-  const py::gil_scoped_acquire acquire;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
+/// A pending Ctrl-C ends the run as an exception of Python, which only its main thread receives. To
+/// be asked in every step, without the interpreter's lock: other threads' Python code can hold it
+/// for some milliseconds, so it is taken rarely, and in other threads never.
+class Interruption {
+ public:
+  Interruption() {
+    const py::module_ threading = py::module_::import("threading");
+    is_main_ = threading.attr("current_thread")().is(threading.attr("main_thread")());
+  }
+  void check() {
+    if (!is_main_ || ++steps_ % kStepsPerCheck != 0) return;
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+
+ private:
+  static constexpr std::size_t kStepsPerCheck = 16;
+  bool is_main_;
+  std::size_t steps_{};
+};
 
 scenario::Scenario scenario_of(const LoadedScenario& loaded, const RunChoices& choices) {
   scenario::Scenario scenario = loaded.scenario;
@@ -143,6 +158,7 @@ py::dict rollout(const LoadedScenario& loaded, std::optional<std::size_t> steps,
   const PriorityRuleInForce rule(priorities);
   const scenario::Scenario scenario =
       scenario_of(loaded, {.steps = steps, .priorities = priorities});
+  Interruption interruption;
   std::vector<ReportRecord> reports;
   result::RunFacts facts{.steps = scenario.steps};
   {
@@ -154,7 +170,7 @@ py::dict rollout(const LoadedScenario& loaded, std::optional<std::size_t> steps,
       facts.vehicle_ids.push_back(one.id.value);
     facts.first_step = vehicles.next_step().value;
     for (std::size_t i = 0; i < scenario.steps; ++i) {
-      check_signals();
+      interruption.check();
       for (coordination::Report& one : vehicles.step()) reports.push_back({.report = one});
     }
   }
@@ -197,9 +213,9 @@ py::dict drive(const LoadedScenario& loaded, std::optional<std::size_t> steps,
                                          .forks = forks_of(forks, scenario),
                                          .prepared = loaded.prepared};
   const std::uint8_t first_vehicle = scenario.vehicles.front().id.value;
-  options.after_step = [first_vehicle](const controller::Controller& one, const auto&,
-                                       const auto&) {
-    if (one.options().vehicle.value == first_vehicle) check_signals();
+  options.after_step = [first_vehicle, interruption = Interruption()](
+                           const controller::Controller& one, const auto&, const auto&) mutable {
+    if (one.options().vehicle.value == first_vehicle) interruption.check();
   };
   closed_loop::Experiment experiment;
   Rows rows;
