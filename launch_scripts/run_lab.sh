@@ -374,7 +374,7 @@ if ((${#guest_ids[@]} > 0)); then
   seeds=""
   [[ -z $noise_seed ]] || for id in "${guest_ids[@]}"; do seeds+=${seeds:+,}$((noise_seed + id)); done
   with_me "$bin/vehicle_sim" --dds_domain "$dds_domain" --simulated_time "$simulated_time" --transport "$transport" "${secured[@]}" \
-    "${recorded[@]}" --vehicle_ids "$guests" --guests "$scenario" --stamps "$stamps" ${seeds:+--noise_seed "$seeds"} \
+    "${recorded[@]}" --vehicle_ids "$guests" --scenario "$scenario" --stamps "$stamps" ${seeds:+--noise_seed "$seeds"} \
     --startup_timeout_s $((startup_timeout_s + 10)) --record "$out/vehicle_{id}.csv" </dev/null >"$out/logs/guests.log" 2>&1 &
   children+=($!)
 fi

@@ -203,7 +203,7 @@ common=(--simulated_time="$simulated_time" --dds_domain="$dds_domain" --transpor
 for name in discovery_mode discovery_server_id discovery_server_ip discovery_server_port security; do
   [[ -z ${!name} ]] || common+=("--$name=${!name}")
 done
-vehicle=(--vehicle_ids="$vehicle_ids" --pose="$pose" --guests="$scenario" --record="$out/vehicle_{id}.csv" "${appends[@]}")
+vehicle=(--vehicle_ids="$vehicle_ids" --pose="$pose" --scenario="$scenario" --record="$out/vehicle_{id}.csv" "${appends[@]}")
 [[ -z $noise_seed ]] || vehicle+=(--noise_seed="$noise_seed")
 [[ -z $gains_scale ]] || vehicle+=(--gains_scale="$gains_scale")
 [[ -z $stamps ]] || vehicle+=(--stamps="$stamps")

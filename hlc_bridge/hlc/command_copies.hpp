@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 
 #include "hlc_bridge/hlc/hlc_core.hpp"
@@ -8,45 +9,49 @@
 
 namespace hlc::high_level_controller {
 
-/// Publishes commands and their copies for later (command.hpp): a command at once, its copy
+/// Publishes commands and their copies for later (command.hpp): a command at once, its copies
 /// according to HlcRules.
 class CommandCopies {
  public:
-  /// Between a command and its copy. Short: a controller that dies in between leaves a car that
-  /// drops its plan after kCommandLifetime and brakes.
+  /// Between a command and its copy, and from copy to copy. Short: a controller that dies in
+  /// between leaves a car that drops its plan after kCommandLifetime and brakes.
   static constexpr Nanoseconds kPause = 5 * kNanosecondsPerMillisecond;
 
   explicit CommandCopies(CommandCopy rule) : rule_(rule) {}
 
-  /// A pending copy is published first. @param wall  now
+  /// Pending copies are published first. @param wall  now
   void publish(const AnswerToList& answer, Nanoseconds wall, HlcActions& actions) {
-    publish_copy(actions);
+    while (!waiting_.empty()) publish_next(actions);
     actions.add(answer.command);
-    if (!answer.copy) return;
-    if (rule_ == CommandCopy::kAtOnce) actions.add(*answer.copy);
+    if (rule_ == CommandCopy::kAtOnce) {
+      for (const TrajectoryCommand& copy : answer.copies) actions.add(copy);
+    }
     if (rule_ == CommandCopy::kAfterPause) {
-      waiting_ = answer.copy;
+      waiting_.assign(answer.copies.begin(), answer.copies.end());
       due_ = wall + kPause;
     }
   }
 
   void publish_when_due(Nanoseconds wall, HlcActions& actions) {
-    if (wall >= due_) publish_copy(actions);
+    if (waiting_.empty() || wall < due_) return;
+    publish_next(actions);
+    due_ = wall + kPause;
   }
 
-  /// Wall time at which the pending copy is to be published; none: no copy is pending.
+  /// Wall time at which the next pending copy is to be published; none: no copy is pending.
   [[nodiscard]] std::optional<Nanoseconds> due() const {
-    return waiting_ ? std::optional{due_} : std::nullopt;
+    return waiting_.empty() ? std::nullopt : std::optional{due_};
   }
-  void drop() { waiting_.reset(); }
+  void drop() { waiting_.clear(); }
 
  private:
-  void publish_copy(HlcActions& actions) {
-    if (waiting_) actions.add(*std::exchange(waiting_, std::nullopt));
+  void publish_next(HlcActions& actions) {
+    actions.add(std::move(waiting_.front()));
+    waiting_.pop_front();
   }
 
   CommandCopy rule_;
-  std::optional<TrajectoryCommand> waiting_;
+  std::deque<TrajectoryCommand> waiting_;
   Nanoseconds due_{};
 };
 

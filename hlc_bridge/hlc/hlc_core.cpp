@@ -9,15 +9,24 @@
 #include "hlc_bridge/hlc/command.hpp"
 #include "hlc_bridge/hlc/own_command_check.hpp"
 #include "planner/common/yaml_text.hpp"
+#include "planner/controller/command_time.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
 namespace hlc::high_level_controller {
 namespace {
 
-AnswerToList with_copy(TrajectoryCommand command) {
-  AnswerToList result{.command = std::move(command), .copy = std::nullopt, .fault = ""};
-  if (!result.command.points.empty()) result.copy = copy_for_later(result.command);
+AnswerToList with_copies(TrajectoryCommand command, std::size_t num_copies) {
+  AnswerToList result{.command = std::move(command), .copies = {}, .fault = ""};
+  if (result.command.points.empty()) return result;
+  for (std::size_t number = 1; number <= num_copies; ++number) {
+    result.copies.push_back(copy_for_later(result.command, number));
+  }
   return result;
+}
+
+std::size_t num_copies(const controller::Controller& controller) {
+  return controller::num_copies(controller.options().horizon_steps,
+                                controller.subgraph().automaton().step_s);
 }
 
 }  // namespace
@@ -103,7 +112,8 @@ AnswerToList HlcCore::answer(const VehicleStateList& list) {
     return result;
   }
   result = last_good_ && may_repeat(*last_good_, list)
-               ? with_copy(republished(*last_good_, list.t_now))
+               ? with_copies(republished(*last_good_, list.t_now, num_copies(*controller_)),
+                             num_copies(*controller_))
                : answer_with(nullptr, list);
   result.fault = std::move(fault);
   return result;
@@ -112,10 +122,13 @@ AnswerToList HlcCore::answer(const VehicleStateList& list) {
 AnswerToList HlcCore::answer_with(const coordination::Plan* plan,
                                   const VehicleStateList& list) const {
   const controller::ControllerOptions& options = controller_->options();
-  return with_copy(
+  const std::size_t copies = num_copies(*controller_);
+  return with_copies(
       command_of(options.vehicle, plan, step_of(list), list.t_now, period_of(list),
                  controller_->subgraph().automaton().vehicle,
-                 options.lab ? options.lab->point_interval_s : controller::kPointInterval_s));
+                 options.lab ? options.lab->point_interval_s : controller::kPointInterval_s,
+                 copies),
+      copies);
 }
 
 /// The vehicle is not too far from every point to follow the command.
@@ -132,8 +145,12 @@ bool HlcCore::may_repeat(const TrajectoryCommand& command, const VehicleStateLis
 
 std::string HlcCore::validate(const AnswerToList& answer) const {
   const std::optional<vehicle::LabLimits>& lab = controller_->options().lab;
-  const std::string fault = validate_own_command(answer.command, lab);
-  return fault.empty() && answer.copy ? validate_own_command(*answer.copy, lab) : fault;
+  std::string fault = validate_own_command(answer.command, lab);
+  // What the last copy fulfils, those before it do, too.
+  if (fault.empty() && !answer.copies.empty()) {
+    fault = validate_own_command(answer.copies.back(), lab);
+  }
+  return fault;
 }
 
 coordination::Report with_answer(coordination::Report report, const AnswerToList& answer) {

@@ -13,10 +13,10 @@
 
 namespace hlc::high_level_controller {
 
-/// A command and, if it has points, its copy for later (copy_for_later).
+/// A command and, if it has points, its copies for later (copy_for_later).
 struct AnswerToList {
   TrajectoryCommand command;
-  std::optional<TrajectoryCommand> copy;
+  std::vector<TrajectoryCommand> copies;
   /// Why the command is the last good one instead of the plan in force; empty if it is the plan.
   std::string fault;
 };

@@ -9,6 +9,7 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/messages/node_names.hpp"
 #include "hlc_bridge/messages/time_grid.hpp"
+#include "planner/controller/command_time.hpp"
 
 namespace hlc::high_level_controller {
 namespace {
@@ -27,12 +28,12 @@ Nanoseconds step_ns(const controller::Controller& controller) {
 void check_plan_fits_commands(const controller::Controller& controller) {
   const std::size_t steps = controller.options().horizon_steps;
   const double step_s = controller.subgraph().automaton().step_s;
-  const double drivable_s = 1e-9 * static_cast<double>(kCopyDelay + kCommandLifetime);
-  if (static_cast<double>(steps + 1) * step_s <= drivable_s + 1e-9) return;
+  if (controller::num_copies(steps, step_s) <= controller::kMostCopies) return;
+  constexpr double kLongest_s = controller::followed_s(controller::kMostCopies);
   throw std::invalid_argument(
-      "horizon_steps must be <= " + std::to_string(std::lround(drivable_s / step_s) - 1) +
-      ", got " + std::to_string(steps) +
-      ": a vehicle drops its command before a longer plan has ended");
+      "horizon_steps must be <= " +
+      std::to_string(std::lround(std::floor(kLongest_s / step_s + 1e-9)) - 1) + ", got " +
+      std::to_string(steps) + ": a vehicle drops its command before a longer plan has ended");
 }
 
 }  // namespace

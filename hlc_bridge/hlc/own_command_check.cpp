@@ -45,11 +45,12 @@ std::string validate_own_command(const TrajectoryCommand& command,
   return "";
 }
 
-TrajectoryCommand republished(TrajectoryCommand command, Nanoseconds t_now) {
+TrajectoryCommand republished(TrajectoryCommand command, Nanoseconds t_now,
+                              std::size_t num_copies) {
   command.create_stamp = t_now;
   command.valid_after_stamp = t_now;
   if (command.points.empty()) return command;
-  const Nanoseconds until = t_now + kCopyDelay + kCommandLifetime + kLookAhead;
+  const Nanoseconds until = t_now + followed_ns(num_copies) + kLookAhead;
   if (command.points.back().t < until) {
     command.points.push_back(command.points.back());
     command.points.back().t = until;

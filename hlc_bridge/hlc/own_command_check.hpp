@@ -24,7 +24,8 @@ namespace hlc::high_level_controller {
                                                const std::optional<vehicle::LabLimits>& limits);
 
 /// A good command again, as the answer to the list of `t_now`: created and valid then; extended at
-/// its end by standing until it is good again.
-[[nodiscard]] TrajectoryCommand republished(TrajectoryCommand command, Nanoseconds t_now);
+/// its end by standing until it is good again, its copies included.
+[[nodiscard]] TrajectoryCommand republished(TrajectoryCommand command, Nanoseconds t_now,
+                                            std::size_t num_copies = 1);
 
 }  // namespace hlc::high_level_controller

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
@@ -25,17 +26,20 @@ std::optional<hlc::road::Blocks> blocks_of(const std::string& text) {
                            .rows = static_cast<int>(numbers->second)};
 }
 
-void write(const hlc::road::LaneletMap& map, const hlc::apps::OutputFile& out) {
-  hlc::road::write_lanelet_map(map, *out.file);
-  std::cout << map.lanelets.size() << " lanelets\n";
+/// With the circuits that are to be printed, if any.
+hlc::road::RoadNetwork network_of(const std::string& name, const std::string& blocks) {
+  if (const auto town = blocks_of(blocks)) return {.map = hlc::road::town_map(*town), .routes = {}};
+  if (name == kLabNetwork) return {.map = hlc::road::lab_network_map(), .routes = {}};
+  return hlc::road::lab_like_map();
 }
 
-void run(const std::string& name, const std::string& blocks, const hlc::apps::OutputFile& out) {
+void run(const std::string& name, const std::string& blocks, double scale,
+         const hlc::apps::OutputFile& out) {
   hlc::apps::check_output_files({out});
-  if (const auto town = blocks_of(blocks)) return write(hlc::road::town_map(*town), out);
-  if (name == kLabNetwork) return write(hlc::road::lab_network_map(), out);
-  const hlc::road::RoadNetwork network = hlc::road::lab_like_map();
+  hlc::road::RoadNetwork network = network_of(name, blocks);
+  network.map = hlc::road::scaled(std::move(network.map), scale);
   hlc::road::write_lanelet_map(network.map, *out.file);
+  if (network.routes.empty()) std::cout << network.map.lanelets.size() << " lanelets\n";
   for (const hlc::road::NamedRoute& route : network.routes) {
     std::cout << route.name << ":";
     for (const hlc::road::LaneletId id : route.lanelets) {
@@ -68,11 +72,17 @@ int main(int argc, char** argv) {
       ->check(hlc::apps::allowing(
           [](const std::string& text) { return blocks_of(text).has_value(); }, allowed, allowed))
       ->excludes(map);
+  double scale = 1.0;
+  app.add_option("--scale", scale,
+                 "all lengths so many times as long: 18 for full-size cars, with lanes of 2.7 m")
+      ->check(hlc::apps::within(0.1, 100.0))
+      ->capture_default_str();
   hlc::apps::declare_output(app, out, "file to write (XML)")->required();
-  hlc::apps::declare_help_end(app, {.examples = {"generate_map --out lab_like.xml",
-                                                 "generate_map --blocks 8x6 --out town.xml"}});
+  hlc::apps::declare_help_end(
+      app, {.examples = {"generate_map --out lab_like.xml",
+                         "generate_map --blocks 2x2 --scale 18 --out town.xml"}});
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, {{"--map", "--shape"}})) {
     return *code;
   }
-  return hlc::apps::exit_code_of("generate_map", [&] { run(name, blocks, out); });
+  return hlc::apps::exit_code_of("generate_map", [&] { run(name, blocks, scale, out); });
 }

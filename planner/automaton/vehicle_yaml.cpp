@@ -27,6 +27,10 @@ std::string fields(std::initializer_list<Field> list) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+std::string if_any(const char* key, const std::optional<double>& value) {
+  return value ? ", " + fields({{key, *value}}) : "";
+}
+
 }  // namespace
 
 vehicle::VehicleParameters read_vehicle(const Node& vehicle) {
@@ -45,7 +49,7 @@ vehicle::IdentifiedVehicle read_identified(const Node& vehicle,
                                            const vehicle::VehicleLimits& limits) {
   if (vehicle.is_value("identified")) {
     static_cast<void>(vehicle.required<std::string>("identified", one_of({"kinematic"})));
-    return vehicle::kinematic_vehicle(parameters, limits.steering_max_rad);
+    return vehicle::kinematic_vehicle(parameters, limits);
   }
   const Node identified = vehicle.optional_map("identified");
   vehicle::IdentifiedVehicle v;
@@ -61,6 +65,10 @@ vehicle::IdentifiedVehicle read_identified(const Node& vehicle,
   v.throttle_exponent = identified.optional("throttle_exponent", v.throttle_exponent, above(0.0));
   v.steering_offset = identified.optional("steering_offset", v.steering_offset);
   v.slip_offset_rad = identified.optional("slip_offset_rad", v.slip_offset_rad);
+  if (identified.has("steering_rate_per_s")) {
+    v.steering_rate_per_s =
+        identified.required<double>("steering_rate_per_s", above(0.0, kStrongest));
+  }
   identified.check_no_unknown_keys();
   return v;
 }
@@ -121,13 +129,10 @@ std::string to_yaml(const vehicle::VehicleParameters& vehicle,
                  {"throttle_exponent", i.throttle_exponent},
                  {"steering_offset", i.steering_offset},
                  {"slip_offset_rad", i.slip_offset_rad}}) +
-         "}}";
+         if_any("steering_rate_per_s", i.steering_rate_per_s) + "}}";
 }
 
 std::string to_yaml(const vehicle::VehicleLimits& limits) {
-  const auto if_any = [](const char* key, const std::optional<double>& value) {
-    return value ? ", " + fields({{key, *value}}) : "";
-  };
   return "{" +
          fields({{"acceleration_mps2", limits.acceleration_mps2},
                  {"steering_rate_radps", limits.steering_rate_radps},

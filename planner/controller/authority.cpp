@@ -11,6 +11,8 @@
 namespace hlc::controller {
 namespace {
 
+// Lengths for the µCar, for others ConflictMap::scale times as long.
+
 /// About as far as a plan of a horizon leads at the lab's reference speed, since it ends in a
 /// standstill. What is taken earlier than it is needed keeps others away: with 1.6 m twenty cars
 /// are slower by 3 % on the lab's road.
@@ -44,7 +46,7 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
   const bool is_continued = has_place_ && claim_.route == route;
   const double moved_m = is_continued ? std::remainder(place_m - claim_.place_m, length_m) : 0.0;
   const double held_m = is_continued ? claim_.ahead_m - moved_m : 0.0;
-  const bool stands = is_continued && std::abs(moved_m) < kStands_m;
+  const bool stands = is_continued && std::abs(moved_m) < map_->scale() * kStands_m;
   const bool is_unused = stands && held_m > std::max(plans_m, 0.0) + map_->cell_m(route);
   unused_steps_ = is_unused ? unused_steps_ + 1 : 0;
   const bool gives_back = unused_steps_ == kPatience_steps;
@@ -81,18 +83,19 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
     granted_.push_back(assumed.back().last);
   }
   std::ranges::sort(granted_, {}, &right_of_way::Holder::vehicle);  // as every other vehicle does
+  const double look_ahead_m = map_->scale() * kLookAhead_m;
   const std::vector<double>& ahead_m =
-      shared.granted(*map_, granted_, blocked, kLookAhead_m, *order_);
+      shared.granted(*map_, granted_, blocked, look_ahead_m, *order_);
   for (std::size_t i = 0; i < granted_.size(); ++i) granted_[i].claim.ahead_m = ahead_m[i];
   std::optional<std::vector<right_of_way::Holder>> cautious;
   if (!assumed.empty()) {
-    cautious = right_of_way::cautious_grant(*map_, received, assumed, blocked, kLookAhead_m, own);
+    cautious = right_of_way::cautious_grant(*map_, received, assumed, blocked, look_ahead_m, own);
   }
   holders_ = cautious ? *std::move(cautious) : granted_;
   own_place_ = static_cast<std::size_t>(
       std::ranges::find(holders_, own, &right_of_way::Holder::vehicle) - holders_.begin());
   claim_.ahead_m = holders_[own_place_].claim.ahead_m;
-  is_limited_ = claim_.ahead_m + map_->cell_m(claim_.route) <= kLookAhead_m;
+  is_limited_ = claim_.ahead_m + map_->cell_m(claim_.route) <= look_ahead_m;
   blocked_.assign(blocked.begin(), blocked.end());
 }
 
@@ -117,12 +120,13 @@ double Authority::end_s_m(double s_m) const {
 
 ConvexPolygon Authority::bar_m(const RouteTracker& tracker, const Footprint& footprint) const {
   const road::ReferencePath& path = tracker.route().path;
-  const double s_m = claim_.place_m + claim_.ahead_m + footprint.length_m / 2.0 + kBehindEnd_m +
-                     kBarLength_m / 2.0;
+  const double scale = map_->scale();
+  const double s_m = claim_.place_m + claim_.ahead_m + footprint.length_m / 2.0 +
+                     scale * kBehindEnd_m + scale * kBarLength_m / 2.0;
   const Point centre_m = path.at(s_m);
   return footprint_area(
-      {kBarLength_m, footprint.width_m + kBarWider_m},
-      {centre_m.x(), centre_m.y(), road::chord_heading_rad(path, s_m, kHalfChord_m)});
+      {scale * kBarLength_m, footprint.width_m + scale * kBarWider_m},
+      {centre_m.x(), centre_m.y(), road::chord_heading_rad(path, s_m, scale * kHalfChord_m)});
 }
 
 }  // namespace hlc::controller

@@ -44,7 +44,9 @@ Driven driven(const Driven& at, const Point& from, const Point& to,
     const double course_rad =
         std::atan2(chord.y(), chord.x()) + std::atan2(kCorrection_per_s * across_m, speed_mps);
     const double slip_rad = wrap_angle(course_rad - at.pose.heading_rad);
-    steering = std::clamp(vehicle::steering_for_slip(slip_rad, identified), -1.0, 1.0);
+    steering = vehicle::actuated({.steering = vehicle::steering_for_slip(slip_rad, identified)},
+                                 {.steering = at.steering}, identified)
+                   .steering;
     speed_mps += kCorrection_per_s * along.dot(error);
   } else {
     const double course_rad =
@@ -56,6 +58,16 @@ Driven driven(const Driven& at, const Point& from, const Point& to,
       .speed_mps = std::max(0.0, speed_mps) / vehicle::path_speed_ratio(steering, identified)};
   return {vehicle::stepped(motion, {.throttle = 0.0, .steering = steering}, identified).pose,
           steering};
+}
+
+/// Where the servo is at first: known only of one that needs time to turn, which is where the plan
+/// has it. Any other takes what the first tick asks for.
+double first_steering(const vehicle::State& planned,
+                      const automaton::UniversalAutomaton& automaton) {
+  if (!automaton.identified.steering_rate_per_s) return 0.0;
+  const double curvature = vehicle::curvature_per_m(planned.steering_rad, automaton.vehicle);
+  return vehicle::steady_steering(curvature, automaton.identified) -
+         automaton.identified.steering_offset;
 }
 
 }  // namespace
@@ -76,8 +88,8 @@ std::vector<PredictedInstant> predicted_drive(const coordination::Plan& plan, co
   const vehicle::VehicleParameters& vehicle = automaton.vehicle;
   std::vector<PredictedInstant> drive;
   Instant at{seen.step, seen.time_s};
-  Driven vehicle_at{.pose = seen.pose};
   vehicle::State planned = plan.state_at(at.step, at.time_s, vehicle);
+  Driven vehicle_at{.pose = seen.pose, .steering = first_steering(planned, automaton)};
   drive.push_back({at.step, planned, vehicle_at.pose});
   while (at.step < until) {
     const Instant then = at.next(automaton.step_s);

@@ -27,10 +27,10 @@ struct PredictedInstant {
 /// The drive of a vehicle that follows `plan`, from its measured pose until t(until): tick by tick
 /// of 20 ms with the identified model (planner/vehicle/identified_motion.hpp), the course aimed at
 /// the next planned position plus a correction of the error across it (5 /s), the steering limited
-/// to [-1, 1], the speed as planned plus a correction of the error along it. Where the plan stands
-/// the steering is kept, and the vehicle still catches up with its plan. Instants at which a step
-/// ends are given twice: as the end of that step and as the begin of the next. @pre plan.first() <=
-/// seen.step
+/// by its actuator (vehicle::actuated), the speed as planned plus a correction of the error along
+/// it. Where the plan stands the steering is kept, and the vehicle still catches up with its plan.
+/// Instants at which a step ends are given twice: as the end of that step and as the begin of the
+/// next. @pre plan.first() <= seen.step
 [[nodiscard]] std::vector<PredictedInstant> predicted_drive(
     const coordination::Plan& plan, const SeenAt& seen, StepIndex until,
     const automaton::UniversalAutomaton& automaton);

@@ -89,7 +89,7 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
     note_outside(seen_.pose, seen_speed_mps_, now);
     return {.deviation_m = 0.0, .is_disturbed = true, .is_lost = true};
   }
-  replaced_.forget(now);
+  replaced_.forget(now, rules_.drivable_steps);
   seen_speed_mps_ = own->speed_mps;
   const SeenAt seen = seen_at(*own, now, automaton_->step_s);
   seen_ = {.step = now, .time_s = 0.0, .pose = own->pose};

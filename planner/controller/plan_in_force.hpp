@@ -22,6 +22,9 @@ struct DeviationRules {
   /// A predicted drift (drift.hpp) up to this needs no larger areas; the rest of the margin is for
   /// the error of the prediction.
   double tolerated_drift_share{0.5};
+  /// Steps after which no vehicle drives a replaced plan any more (command_time.hpp); the default
+  /// is that of 8 steps of 0.2 s.
+  std::uint64_t drivable_steps{10};
 };
 
 /// The deviation of a vehicle from its plan, and the consequences.

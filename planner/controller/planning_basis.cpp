@@ -63,6 +63,7 @@ void add(WordHash& hash, const vehicle::IdentifiedVehicle& identified) {
         identified.slip_offset_rad}) {
     hash.add(value);
   }
+  if (identified.steering_rate_per_s) hash.add(*identified.steering_rate_per_s);
 }
 
 void add(WordHash& hash, const road::DrivableRoute& route) {

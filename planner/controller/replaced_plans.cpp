@@ -47,9 +47,9 @@ void ReplacedPlans::add(coordination::Plan plan, coordination::OccupiedAreas ann
   formers_.push_back(std::make_shared<const Former>(std::move(plan), std::move(announced), in));
 }
 
-void ReplacedPlans::forget(StepIndex now) {
-  std::erase_if(formers_, [now](const std::shared_ptr<const Former>& former) {
-    return now.value >= former->replaced_in.value + kDrivableSteps;
+void ReplacedPlans::forget(StepIndex now, std::uint64_t drivable_steps) {
+  std::erase_if(formers_, [&](const std::shared_ptr<const Former>& former) {
+    return now.value >= former->replaced_in.value + drivable_steps;
   });
 }
 

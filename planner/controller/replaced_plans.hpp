@@ -27,11 +27,6 @@ namespace hlc::controller {
 /// the commands of the newer ones may have been lost. A value; copies share the plans.
 class ReplacedPlans {
  public:
-  /// From the step in which a plan is replaced, no command is sent for it. A command is followed
-  /// for 1.8 s (1 s, and its copy for the rest), that is 9 steps; then the vehicle brakes. One more
-  /// step for a state that is up to a step old.
-  static constexpr std::uint64_t kDrivableSteps = 10;
-
   struct Former {
     coordination::Plan plan;
     /// As the others knew them, from the step before it came into force
@@ -43,7 +38,8 @@ class ReplacedPlans {
   void add(coordination::Plan plan, coordination::OccupiedAreas announced, StepIndex in);
   /// The list of step `now` shows the vehicle: plans that it can no longer drive are removed. A
   /// vehicle that is not seen may stand anywhere on any of them.
-  void forget(StepIndex now);
+  /// @param drivable_steps  of the controller (command_time.hpp)
+  void forget(StepIndex now, std::uint64_t drivable_steps);
   /// In step `now` it is unknown which of the plans until then the vehicle drives.
   void doubt(StepIndex now) { doubted_until_ = now; }
 

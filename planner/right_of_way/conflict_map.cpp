@@ -18,10 +18,23 @@ constexpr double kMostSlip = 0.9;
 constexpr double kSameLane_m = 0.004;
 constexpr double kSameLane_rad = 0.1;
 
+ConflictRules scaled(const ConflictRules& rules, double scale) {
+  return {.cell_m = scale * rules.cell_m,
+          .across_m = scale * rules.across_m,
+          .along_m = scale * rules.along_m,
+          .same_place_m = scale * rules.same_place_m,
+          .same_heading_rad = rules.same_heading_rad,
+          .following_m = scale * rules.following_m,
+          .joined_m = scale * rules.joined_m};
+}
+
 }  // namespace
 
 ConflictMap::ConflictMap(std::span<const road::DrivableRoute> routes,
-                         const vehicle::VehicleParameters& vehicle, const ConflictRules& rules) {
+                         const vehicle::VehicleParameters& vehicle,
+                         const ConflictRules& for_the_ucar)
+    : scale_(scale_of(vehicle.footprint)) {
+  const ConflictRules rules = scaled(for_the_ucar, scale_);
   reach_of_area_m_ = std::hypot(vehicle.footprint.length_m + 2.0 * rules.along_m,
                                 vehicle.footprint.width_m + 2.0 * rules.across_m) /
                      2.0;

@@ -13,7 +13,8 @@
 
 namespace hlc::right_of_way {
 
-/// How routes are cut into cells, and when two cells exclude each other.
+/// How routes are cut into cells, and when two cells exclude each other. Lengths are those for the
+/// µCar; for another vehicle ConflictMap multiplies them by scale_of its footprint.
 struct ConflictRules {
   double cell_m{0.04};
   /// Added to the footprint to each side: a safety margin of 10 mm and room for a vehicle that
@@ -48,8 +49,10 @@ class ConflictMap {
  public:
   /// @pre every path is closed
   ConflictMap(std::span<const road::DrivableRoute> routes,
-              const vehicle::VehicleParameters& vehicle, const ConflictRules& rules = {});
+              const vehicle::VehicleParameters& vehicle, const ConflictRules& for_the_ucar = {});
 
+  /// Of the vehicles (scale_of).
+  [[nodiscard]] double scale() const { return scale_; }
   [[nodiscard]] std::size_t num_routes() const { return routes_.size(); }
   [[nodiscard]] std::size_t num_cells(std::size_t route) const { return routes_[route].size(); }
   [[nodiscard]] double length_m(std::size_t route) const { return lengths_m_[route]; }
@@ -103,6 +106,7 @@ class ConflictMap {
   std::vector<Cell> cells_;
   std::vector<Numbers> routes_;  ///< in the order of driving, not ascending
   std::vector<double> lengths_m_;
+  double scale_;
   double reach_of_area_m_{};  ///< from a cell's position
 };
 

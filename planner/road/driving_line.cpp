@@ -13,7 +13,7 @@
 namespace hlc::road {
 namespace {
 
-constexpr double kSampling_m = 0.04;
+constexpr double kSampling_m = 0.04;  // of the µCar, for others scale_of
 constexpr double kHalfChord_m = 0.05;
 constexpr double kCurvatureChord_m = 0.10;
 /// Share of the room towards the kerb by which the line is moved.
@@ -24,12 +24,12 @@ constexpr std::ptrdiff_t kSmoothed = 4;
 /// angle between the two.
 constexpr double kNearestLane = 0.67;
 constexpr double kFarthestLane = 1.27;
-constexpr double kBeside_m = 0.06;
+constexpr double kBeside_m = 0.06;  // of the µCar
 constexpr double kParallel_rad = 0.4;
 
 /// Equidistant poses along a closed path.
-std::vector<Pose> samples_of(const ReferencePath& path) {
-  const auto count = static_cast<std::size_t>(std::max(1.0, path.length_m() / kSampling_m));
+std::vector<Pose> samples_of(const ReferencePath& path, double sampling_m) {
+  const auto count = static_cast<std::size_t>(std::max(1.0, path.length_m() / sampling_m));
   std::vector<Pose> samples;
   for (std::size_t i = 0; i < count; ++i) {
     const double s_m = path.length_m() * static_cast<double>(i) / static_cast<double>(count);
@@ -46,8 +46,10 @@ struct Sides {
 
 class NeighbourLanes {
  public:
-  NeighbourLanes(const std::vector<std::vector<Pose>>& paths, double lane_width_m)
-      : lane_width_m_(lane_width_m), near_(std::hypot(kFarthestLane * lane_width_m, kBeside_m)) {
+  NeighbourLanes(const std::vector<std::vector<Pose>>& paths, double lane_width_m, double beside_m)
+      : lane_width_m_(lane_width_m),
+        beside_m_(beside_m),
+        near_(std::hypot(kFarthestLane * lane_width_m, beside_m)) {
     for (const std::vector<Pose>& path : paths) {
       for (const Pose& pose : path) {
         poses_.push_back(pose);
@@ -68,7 +70,7 @@ class NeighbourLanes {
     const Point apart_m = other.position_m() - pose.position_m();
     const double across_m = along.x() * apart_m.y() - along.y() * apart_m.x();
     bool& side = across_m > 0.0 ? sides.left : sides.right;
-    if (side || std::abs(along.dot(apart_m)) > kBeside_m) return;
+    if (side || std::abs(along.dot(apart_m)) > beside_m_) return;
     const double lanes = std::abs(across_m) / lane_width_m_;
     if (lanes < kNearestLane || lanes > kFarthestLane) return;
     side = std::abs(std::remainder(other.heading_rad - pose.heading_rad, std::numbers::pi)) <=
@@ -76,6 +78,7 @@ class NeighbourLanes {
   }
 
   double lane_width_m_;
+  double beside_m_;
   std::vector<Pose> poses_;
   NearPoints near_;
 };
@@ -119,8 +122,9 @@ Point DrivingLine::at(const ReferencePath& path, double s_m) const {
 std::vector<DrivingLine> driving_lines(std::span<const ReferencePath> paths, double lane_width_m,
                                        const Footprint& footprint) {
   std::vector<std::vector<Pose>> samples;
-  std::ranges::transform(paths, std::back_inserter(samples), samples_of);
-  const NeighbourLanes lanes(samples, lane_width_m);
+  const double scale = scale_of(footprint);
+  for (const ReferencePath& path : paths) samples.push_back(samples_of(path, scale * kSampling_m));
+  const NeighbourLanes lanes(samples, lane_width_m, scale * kBeside_m);
   const double room_m = (lane_width_m - footprint.width_m) / 2.0;
   const double overhang_m2 = footprint.length_m * footprint.length_m / 8.0;
   std::vector<DrivingLine> lines;

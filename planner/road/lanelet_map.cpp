@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "planner/common/demand.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/road/commonroad_document.hpp"
 #include "planner/road/commonroad_writer.hpp"
@@ -119,6 +120,16 @@ double narrowest_lane_m(const LaneletMap& map) {
     }
   }
   return narrowest_m;
+}
+
+LaneletMap scaled(LaneletMap map, double factor) {
+  HLC_DEMAND(factor > 0.0, factor);
+  for (auto& [id, lanelet] : map.lanelets) {
+    for (std::vector<Point>* bound : {&lanelet.left_m, &lanelet.right_m}) {
+      for (Point& point : *bound) point *= factor;
+    }
+  }
+  return map;
 }
 
 Box ground_m(const LaneletMap& map) {

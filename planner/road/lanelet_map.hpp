@@ -44,6 +44,10 @@ struct LaneletMap {
   friend bool operator==(const LaneletMap&, const LaneletMap&) = default;
 };
 
+/// All lengths `factor` times as long, about the origin; the name stays, so that routes by lanelets
+/// hold. For cars of another scale. @pre factor > 0
+[[nodiscard]] LaneletMap scaled(LaneletMap map, double factor);
+
 /// The ground that vehicles may use: the box of all lanelets and 30 mm around it. For the lab's map
 /// that is its floor, 4.5 m x 4.0 m, to a millimetre.
 [[nodiscard]] Box ground_m(const LaneletMap& map);

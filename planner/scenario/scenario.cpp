@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "planner/common/node.hpp"
+#include "planner/controller/command_time.hpp"
 #include "planner/scenario/priority_values.hpp"
 #include "planner/scenario/reference_speeds.hpp"
 #include "planner/scenario/scenario_assembly.hpp"
@@ -16,9 +17,11 @@
 namespace hlc::scenario {
 namespace {
 
-controller::DeviationRules deviation_rules(const std::optional<vehicle::LabLimits>& lab) {
+controller::DeviationRules deviation_rules(const Scenario& scenario) {
   controller::DeviationRules rules;
-  if (lab) rules.tracking_error_max_m = lab->tracking_error_max_m;
+  if (scenario.lab) rules.tracking_error_max_m = scenario.lab->tracking_error_max_m;
+  rules.drivable_steps =
+      controller::drivable_steps(scenario.horizon_steps, scenario.subgraph->automaton().step_s);
   return rules;
 }
 
@@ -127,7 +130,7 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                                     .reference_rule = scenario.profile.reference_rule,
                                     .strategies = scenario.profile.strategies,
                                     .search = scenario.search,
-                                    .deviation = deviation_rules(scenario.lab),
+                                    .deviation = deviation_rules(scenario),
                                     .conflicts = scenario.conflicts,
                                     .lab = scenario.lab,
                                     .guests = std::move(guests),

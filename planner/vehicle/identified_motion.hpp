@@ -38,6 +38,19 @@ struct VehicleMotion {
   friend bool operator==(const VehicleMotion&, const VehicleMotion&) = default;
 };
 
+/// What the actuators make of a finite `wanted` a tick after they were given `last`: each in [-1,
+/// 1], the steering no further from the last one than the servo turns in a tick.
+[[nodiscard]] inline ActuatorInput actuated(const ActuatorInput& wanted, const ActuatorInput& last,
+                                            const IdentifiedVehicle& vehicle) {
+  ActuatorInput result{.throttle = std::clamp(wanted.throttle, -1.0, 1.0),
+                       .steering = std::clamp(wanted.steering, -1.0, 1.0)};
+  if (vehicle.steering_rate_per_s) {
+    const double most = *vehicle.steering_rate_per_s * kIdentifiedStep_s;
+    result.steering = std::clamp(result.steering, last.steering - most, last.steering + most);
+  }
+  return result;
+}
+
 /// p1 (1 + p2 delta^2): speed along the path per speed of the wheels.
 [[nodiscard]] inline double path_speed_ratio(double steering, const IdentifiedVehicle& vehicle) {
   const double delta = steering + vehicle.steering_offset;

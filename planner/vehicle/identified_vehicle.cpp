@@ -20,15 +20,18 @@ double steady_slip_rad(double curvature_per_m, const IdentifiedVehicle& vehicle)
   return vehicle.slip_gain_rad * delta + vehicle.slip_offset_rad;
 }
 
-IdentifiedVehicle kinematic_vehicle(const VehicleParameters& vehicle, double steering_max_rad) {
-  IdentifiedVehicle result;
-  result.path_speed_gain = 1.0;
-  result.path_speed_steering = 0.0;
-  result.slip_gain_rad = slip_angle_rad(steering_max_rad, vehicle);
-  result.yaw_rate_gain_per_m = curvature_per_m(steering_max_rad, vehicle);
-  result.steering_offset = 0.0;
-  result.slip_offset_rad = 0.0;
-  return result;
+IdentifiedVehicle kinematic_vehicle(const VehicleParameters& vehicle, const VehicleLimits& limits) {
+  return {.path_speed_gain = 1.0,
+          .path_speed_steering = 0.0,
+          .slip_gain_rad = slip_angle_rad(limits.steering_max_rad, vehicle),
+          .yaw_rate_gain_per_m = curvature_per_m(limits.steering_max_rad, vehicle),
+          .drag_per_s = 0.0,
+          .thrust_offset_mps2 = limits.acceleration_mps2,
+          .thrust_per_volt = 0.0,
+          .throttle_exponent = 1.0,
+          .steering_offset = 0.0,
+          .slip_offset_rad = 0.0,
+          .steering_rate_per_s = limits.steering_rate_radps / limits.steering_max_rad};
 }
 
 }  // namespace hlc::vehicle

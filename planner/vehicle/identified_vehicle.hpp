@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "planner/vehicle/single_track.hpp"
 
 namespace hlc::vehicle {
@@ -25,15 +27,20 @@ struct IdentifiedVehicle {
   double throttle_exponent{1.321199};     ///< p8
   double steering_offset{0.032208};       ///< p9
   double slip_offset_rad{-0.012863};      ///< p10
+  /// Largest |ds/dt| of the servo; absent: it turns within one tick, as the lab's does in the
+  /// model.
+  std::optional<double> steering_rate_per_s{};
 };
 
-/// A vehicle without identification: the single-track model in the form of the identified one,
-/// curvature proportional to steering and slip proportional to curvature, both exact straight ahead
-/// and at full steering, |s| = 1 at `steering_max_rad`. Between them the error of the slip is some
-/// milliradians.
-/// @pre 0 < steering_max_rad < pi / 2
+/// A vehicle without identification: the single-track model within its limits, in the form of the
+/// identified one. Curvature is proportional to steering and slip proportional to curvature, exact
+/// at full steering, |s| = 1 at `steering_max_rad`; in between the slip is off by some milliradians
+/// for small angles (14 mrad for 1.07 rad). The throttle is the acceleration, v' = a_max f, without
+/// drag. The servo needs as long as the limit of the steering rate asks for from one end to the
+/// other: |ds/dt| <= steering_rate_radps / steering_max_rad. Tyres do not slide.
+/// @pre 0 < steering_max_rad < pi / 2, other limits above 0
 [[nodiscard]] IdentifiedVehicle kinematic_vehicle(const VehicleParameters& vehicle,
-                                                  double steering_max_rad);
+                                                  const VehicleLimits& limits);
 
 /// delta (= s + p9) at which the identified vehicle drives a path of this curvature in steady
 /// state: the solution of curvature = p4 delta / (p1 (1 + p2 delta^2)) nearest to 0. Not limited to

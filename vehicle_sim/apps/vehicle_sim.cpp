@@ -15,6 +15,7 @@
 #include "hlc_bridge/apps/program_version.hpp"
 #include "hlc_bridge/apps/run_program.hpp"
 #include "planner/scenario/guest_values.hpp"
+#include "planner/scenario/vehicle_model.hpp"
 #include "vehicle_sim/apps/start_pose.hpp"
 #include "vehicle_sim/apps/vehicle_process.hpp"
 #include "vehicle_sim/closed_loop/guest_vehicle.hpp"
@@ -30,7 +31,7 @@ struct Flags {
   std::vector<std::uint64_t> noise_seeds;
   double gains_scale{1.0};
   std::string stamps{"exact"};
-  std::string guests;
+  std::string scenario;
   std::string record;
   bool append_record{};
   bool keep_running{false};
@@ -61,9 +62,9 @@ void declare(CLI::App& app, Flags& flags) {
                  "which follows by its own controller and shows the pose 20 ms after the stamp")
       ->capture_default_str()
       ->check(CLI::IsMember({"exact", "lab"}));
-  app.add_option("--guests", flags.guests,
-                 "scenario file, whose guests start and drive as it states; default: there are "
-                 "none")
+  app.add_option("--scenario", flags.scenario,
+                 "scenario file: the vehicles move as its automaton's, and its guests start and "
+                 "drive as it states; default: the lab's µCars, without guests")
       ->type_name("FILE");
   CLI::Option* const record =
       app.add_option("--record", flags.record,
@@ -100,8 +101,8 @@ std::vector<Value> share_of(const char* flag, const std::vector<Value>& all, std
 }
 
 std::vector<hlc::scenario::ScenarioGuest> guests(const Flags& flags) {
-  if (flags.guests.empty()) return {};
-  return hlc::scenario::guests_of_file(flags.guests);
+  if (flags.scenario.empty()) return {};
+  return hlc::scenario::guests_of_file(flags.scenario);
 }
 
 std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(
@@ -113,6 +114,9 @@ std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(
         "--gains_scale = {}, must be 1 with --stamps = lab: its controller has no gains",
         flags.gains_scale));
   }
+  const hlc::vehicle::IdentifiedVehicle model =
+      flags.scenario.empty() ? hlc::vehicle::IdentifiedVehicle{}
+                             : hlc::scenario::vehicle_model_of_file(flags.scenario);
   const std::size_t count = flags.vehicle_ids.size();
   std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles;
   for (std::size_t i = 0; i < count; ++i) {
@@ -133,6 +137,7 @@ std::vector<hlc::simulated_vehicle::SimulatedVehicleOptions> vehicles(
          .start = hlc::apps::start_pose(id, share_of("--pose", flags.pose, i, 3, count)),
          .noise_seed = seed,
          .gains = scaled(hlc::tracking::FollowerGains{}, flags.gains_scale),
+         .vehicle = model,
          .stamps = stamps});
   }
   return vehicles;

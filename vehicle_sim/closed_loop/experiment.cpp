@@ -60,6 +60,7 @@ class Lab {
           .vehicle_id = id,
           .start = scenario::measured_start(scenario, vehicle),
           .gains = options.gains,
+          .vehicle = scenario.subgraph->automaton().identified,
           .stamps = options.stamps.value_or(stamps_of(scenario))};
       if (options.noise_seed) simulated.noise_seed = *options.noise_seed + id;
       high_level_controller::HlcCore hlc(scenario::make_controller(scenario, vehicle.id, prepared));
@@ -173,7 +174,7 @@ class Lab {
       Member& member = members_[i];
       const high_level_controller::AnswerToList answer = member.hlc.answer(list);
       forward(answer.command, t_now, member);
-      if (answer.copy) forward(*answer.copy, t_now, member);
+      for (const TrajectoryCommand& copy : answer.copies) forward(copy, t_now, member);
       reports[i].report = high_level_controller::with_answer(std::move(reports[i].report), answer);
       member.hlc.controller().note_causes(reports[i].report);
       member.hlc.controller().note_bound(reports[i].report);

@@ -48,6 +48,7 @@ simulated_vehicle::VehicleMachine vehicle(const scenario::Scenario& scenario, st
       {.vehicle = {.vehicle_id = id,
                    .start = start,
                    .noise_seed = mixed(settings.seed, id),
+                   .vehicle = scenario.subgraph->automaton().identified,
                    .stamps = stamps_of(scenario)},
        .rules = settings.is_logical ? machine::logical_rules() : machine::real_rules(kVehicleStays),
        .startup_timeout = kStartupTimeout});

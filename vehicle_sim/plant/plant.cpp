@@ -11,11 +11,6 @@ bool is_finite(const vehicle::ActuatorInput& input) {
   return std::isfinite(input.throttle) && std::isfinite(input.steering);
 }
 
-vehicle::ActuatorInput clamped(const vehicle::ActuatorInput& input) {
-  return {.throttle = std::clamp(input.throttle, -1.0, 1.0),
-          .steering = std::clamp(input.steering, -1.0, 1.0)};
-}
-
 }  // namespace
 
 Plant::Plant(const PlantOptions& options)
@@ -50,9 +45,10 @@ Measurement Plant::measure() {
 
 void Plant::step(const vehicle::ActuatorInput& commanded) {
   acting_ = under_way_.front();
+  const vehicle::ActuatorInput last = under_way_.back();
   std::shift_left(under_way_.begin(), under_way_.end(), 1);
-  under_way_.back() =
-      is_finite(commanded) ? clamped(commanded) : vehicle::stop_input(motion_.speed_mps);
+  under_way_.back() = vehicle::actuated(
+      is_finite(commanded) ? commanded : vehicle::stop_input(motion_.speed_mps), last, vehicle_);
 
   const vehicle::VehicleMotion before = motion_;
   motion_ = vehicle::stepped(before, acting_, vehicle_, battery_voltage_v_);

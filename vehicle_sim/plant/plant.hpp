@@ -32,7 +32,8 @@ struct Measurement {
   double acceleration_left_mps2{};
 };
 
-/// One simulated µCar: the identified model behind an actuator with a delay.
+/// One simulated vehicle: the identified model behind an actuator with a delay. For another car
+/// than the lab's the model is made of its limits (vehicle::kinematic_vehicle).
 ///
 /// At every tick: first `measure`, then `step` with the input that was computed from it. An input
 /// given at tick n acts from tick n + 4 to n + 5; before the fifth input the actuators rest at 0.
@@ -53,8 +54,8 @@ class Plant {
   [[nodiscard]] Measurement measure();
 
   /// Queues `commanded` and advances one tick with the input that has reached the actuators. Inputs
-  /// beyond [-1, 1] are clamped; one that is not finite counts as the stop law at the current
-  /// speed.
+  /// beyond what the actuators can do are limited (vehicle::actuated); one that is not finite
+  /// counts as the stop law at the current speed.
   void step(const vehicle::ActuatorInput& commanded);
 
  private:

@@ -35,8 +35,9 @@ Follower::Output Follower::tick(Nanoseconds t_now, const vehicle::VehicleMotion&
 
 void Follower::give(const vehicle::ActuatorInput& input) {
   acted_ = under_way_.front();
+  const vehicle::ActuatorInput last = under_way_.back();
   std::shift_left(under_way_.begin(), under_way_.end(), 1);
-  under_way_.back() = input;
+  under_way_.back() = vehicle::actuated(input, last, vehicle_);
 }
 
 Follower::Output Follower::decide(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
@@ -66,10 +67,11 @@ Follower::Output Follower::decide(Nanoseconds t_now, const vehicle::VehicleMotio
       return {.input = stop, .status = FollowerStatus::kNotFollowable};
     }
     reference[i] = wanted->position_m;
-    const double distance_m = (reference[i] - start.pose.position_m()).norm();
-    if (!(distance_m <= kMaxDistance_m)) {
-      return {.input = stop, .status = FollowerStatus::kTooFar};
-    }
+  }
+  // At the same time only: a fast vehicle drives more than that in the two ticks after it.
+  const double distance_m = (reference.front() - start.pose.position_m()).norm();
+  if (!(distance_m <= kMaxDistance_m)) {
+    return {.input = stop, .status = FollowerStatus::kTooFar};
   }
   const double steering = steering_for(reference, start);
   const double throttle = throttle_for(reference, start, steering);

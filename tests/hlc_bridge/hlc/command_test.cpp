@@ -55,6 +55,30 @@ TEST(Command, ReachesBeyondTheLookAheadAsLongAsACopyIsUsable) {
   EXPECT_EQ(command.points.back().vy_mps, 0.0);
 }
 
+TEST(Command, OfALongPlanHasCopiesOneAfterTheOtherUntilThePlanHasEnded) {
+  constexpr std::size_t kCopies = 5;
+  const std::vector<const automaton::Maneuver*> long_plan(20, &edge(7, 7));
+  const coordination::Plan plan = coordination::Plan(kStep, {1.0, 2.0, 0.5}, edge(1, 1))
+                                      .continued({51}, {&edge(1, 7)})
+                                      .continued({52}, long_plan)
+                                      .continued({72}, {&edge(7, 1)});
+  const TrajectoryCommand command =
+      command_of({7}, &plan, kStep, kNow, kPeriod, automaton::paper_automaton()->vehicle,
+                 controller::kPointInterval_s, kCopies);
+  for (std::size_t number = 1; number <= kCopies; ++number) {
+    EXPECT_EQ(copy_for_later(command, number).valid_after_stamp, kNow + number * kCopyDelay);
+  }
+  const Nanoseconds usable_until =
+      copy_for_later(command, kCopies).valid_after_stamp + kCommandLifetime;
+  EXPECT_EQ(usable_until, kNow + followed_ns(kCopies));
+  EXPECT_GE(usable_until, (kStep.value + 23) * kPeriod) << "the whole plan";
+  EXPECT_GE(command.points.back().t, usable_until + kLookAhead);
+  const TrajectoryCommand none =
+      command_of({7}, nullptr, kStep, kNow, kPeriod, automaton::paper_automaton()->vehicle,
+                 controller::kPointInterval_s, kCopies);
+  EXPECT_GE(none.valid_after_stamp, usable_until) << "it takes no copy away from the vehicle";
+}
+
 TEST(Command, WithoutAPlanTakesNoFormerCommandAwayFromTheVehicle) {
   const TrajectoryCommand command =
       command_of({7}, nullptr, kStep, kNow, kPeriod, automaton::paper_automaton()->vehicle);

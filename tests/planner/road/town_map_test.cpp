@@ -95,12 +95,32 @@ TEST_P(TownMap, TurnsAreAsWideAsPromised) {
   EXPECT_NEAR(least_per_m, -2.05, 0.05);
 }
 
-TEST(Town, ShippedFileIsWhatTheGeneratorMakes) {
-  const std::string shipped =
-      read_file(std::filesystem::path(test::source_folder()) / "launch_scripts/maps/town.xml");
-  EXPECT_LT(shipped.size(), 900'000U);
-  EXPECT_TRUE(shipped == to_commonroad_xml(town_map({.columns = 5, .rows = 4})))
-      << "launch_scripts/maps/town.xml is out of date: generate_map --blocks 5x4 --out makes it";
+TEST(Town, ShippedFilesAreWhatTheGeneratorMakes) {
+  struct Shipped {
+    std::string file;
+    Blocks blocks;
+    double scale{};
+  };
+  for (const Shipped& one : {Shipped{"town.xml", {.columns = 5, .rows = 4}, 1.0},
+                             Shipped{"town_full_size.xml", {.columns = 2, .rows = 2}, 18.0},
+                             Shipped{"town_f1tenth.xml", {.columns = 2, .rows = 2}, 3.0}}) {
+    const std::string shipped = read_file(std::filesystem::path(test::source_folder()) /
+                                          "launch_scripts/maps" / one.file);
+    EXPECT_LT(shipped.size(), 900'000U);
+    EXPECT_TRUE(shipped == to_commonroad_xml(scaled(town_map(one.blocks), one.scale)))
+        << one.file << " is out of date: its command is in launch_scripts/maps/README.md";
+  }
+}
+
+TEST(Town, ScaledHasAllLengthsInTheSameProportion) {
+  const LaneletMap town = town_map({.columns = 2, .rows = 1});
+  const LaneletMap large = scaled(town, 18.0);
+  EXPECT_EQ(large.benchmark_id, town.benchmark_id);
+  EXPECT_DOUBLE_EQ(narrowest_lane_m(large), 18.0 * narrowest_lane_m(town));
+  for (const auto& [id, lanelet] : town.lanelets) {
+    EXPECT_EQ(large.lanelets.at(id).successors, lanelet.successors);
+    EXPECT_EQ(large.lanelets.at(id).right_m.back(), Point(18.0 * lanelet.right_m.back()));
+  }
 }
 
 TEST(Town, IsReadAsItWasWritten) {

@@ -177,7 +177,7 @@ TEST_F(SwitchingAutomata, TheOneBeforeStaysAsLongAsAPlanThatMayBeDrivenHasManeuv
     EXPECT_FALSE(watched_.expired()) << "it is driven, or was a step ago";
   }
   // Its commands may have been received last (replaced_plans.hpp).
-  for (std::uint64_t k = 1; k < controller::ReplacedPlans::kDrivableSteps; ++k) {
+  for (std::uint64_t k = 1; k < controller::DeviationRules{}.drivable_steps; ++k) {
     static_cast<void>(step());
     EXPECT_FALSE(watched_.expired());
   }
@@ -197,7 +197,7 @@ TEST_F(SwitchingAutomata, APlanThatIsDrivenToItsEndStandsOnItsOwn) {
     EXPECT_FALSE(watched_.expired());
     EXPECT_EQ(step().status, coordination::StepStatus::kPlanned);
   }
-  for (std::uint64_t k = 0; k < controller::ReplacedPlans::kDrivableSteps; ++k)
+  for (std::uint64_t k = 0; k < controller::DeviationRules{}.drivable_steps; ++k)
     static_cast<void>(step());
   EXPECT_TRUE(watched_.expired());
 }
