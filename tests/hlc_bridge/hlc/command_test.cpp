@@ -57,11 +57,11 @@ TEST(Command, ReachesBeyondTheLookAheadAsLongAsACopyIsUsable) {
 
 TEST(Command, OfALongPlanHasCopiesOneAfterTheOtherUntilThePlanHasEnded) {
   constexpr std::size_t kCopies = 5;
-  const std::vector<const automaton::Maneuver*> long_plan(20, &edge(7, 7));
-  const coordination::Plan plan = coordination::Plan(kStep, {1.0, 2.0, 0.5}, edge(1, 1))
-                                      .continued({51}, {&edge(1, 7)})
-                                      .continued({52}, long_plan)
-                                      .continued({72}, {&edge(7, 1)});
+  std::vector<const automaton::Maneuver*> maneuvers{&edge(1, 7)};
+  for (int i = 0; i < 20; ++i) maneuvers.push_back(&edge(7, 7));
+  maneuvers.push_back(&edge(7, 1));
+  const coordination::Plan plan =
+      coordination::Plan(kStep, {1.0, 2.0, 0.5}, edge(1, 1)).continued({51}, maneuvers);
   const TrajectoryCommand command =
       command_of({7}, &plan, kStep, kNow, kPeriod, automaton::paper_automaton()->vehicle,
                  controller::kPointInterval_s, kCopies);
