@@ -18,7 +18,9 @@ TEST(CommandTime, AsManyCopiesAreSentAsAPlanAndOneStepMoreNeed) {
     const double planned_s = static_cast<double>(steps + 1) * step_s;
     const std::size_t copies = num_copies(steps, step_s);
     EXPECT_GE(followed_s(copies), planned_s - 1e-9);
-    if (copies > 1) EXPECT_LT(followed_s(copies - 1), planned_s);
+    if (copies > 1) {
+      EXPECT_LT(followed_s(copies - 1), planned_s);
+    }
     EXPECT_GE(static_cast<double>(drivable_steps(steps, step_s)) * step_s,
               followed_s(copies) + step_s - 1e-9);
   }
