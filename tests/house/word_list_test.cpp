@@ -79,8 +79,6 @@ const std::vector<Exception> kExceptions{
     {"CHANGELOG.md", "`overlong_", "names the renamed keys"},
     {"launch_scripts/scenarios/reconfiguration.yaml", "rehearsal",
      "records of runs hold the hashes of scenario files"},
-    {"launch_scripts/scenarios/passenger_cars.yaml", "carry plans of 4 s",
-     "records of runs hold the hashes of scenario files"},
     {"tests/integration/lab_network.cpp", "carrier", "of a network interface"},
 };
 

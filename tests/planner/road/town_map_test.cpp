@@ -104,8 +104,8 @@ TEST(Town, ShippedFilesAreWhatTheGeneratorMakes) {
   for (const Shipped& one : {Shipped{"town.xml", {.columns = 5, .rows = 4}, 1.0},
                              Shipped{"town_full_size.xml", {.columns = 2, .rows = 2}, 18.0},
                              Shipped{"town_f1tenth.xml", {.columns = 2, .rows = 2}, 3.0}}) {
-    const std::string shipped = read_file(std::filesystem::path(test::source_folder()) /
-                                          "launch_scripts/maps" / one.file);
+    const std::string shipped =
+        read_file(std::filesystem::path(test::source_folder()) / "launch_scripts/maps" / one.file);
     EXPECT_LT(shipped.size(), 900'000U);
     EXPECT_TRUE(shipped == to_commonroad_xml(scaled(town_map(one.blocks), one.scale)))
         << one.file << " is out of date: its command is in launch_scripts/maps/README.md";
