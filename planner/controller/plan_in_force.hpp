@@ -22,8 +22,8 @@ struct DeviationRules {
   /// A predicted drift (drift.hpp) up to this needs no larger areas; the rest of the margin is for
   /// the error of the prediction.
   double tolerated_drift_share{0.5};
-  /// Steps after which a replaced plan is no longer driven (command_time.hpp); the default is that of
-  /// 8 steps of 0.2 s.
+  /// Steps after which a replaced plan is no longer driven (command_time.hpp); the default is that
+  /// of 8 steps of 0.2 s.
   std::uint64_t drivable_steps{10};
 };
 
