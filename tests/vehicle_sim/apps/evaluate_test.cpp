@@ -243,16 +243,30 @@ TEST_F(Evaluate, WritesTheSeriesOfTheFiguresAlsoLater) {
   EXPECT_GT(scenario["vehicles"][0]["path"]["length_m"], 1.0);
 }
 
-// The simulated vehicles are model cars: they cannot follow the plans of full-size ones.
+// The motor of the first scenario's vehicle is too weak for its plans.
 TEST_F(Evaluate, ARunThatFailsIsRecordedWithItsReasonAndDoesNotStopTheOthers) {
-  const Outcome done = run_program("evaluate --scenario passenger_cars,paper_red_alone --steps 20" +
-                                   kScenarios + " --out " + out_.string());
+  const std::string sources = test::source_folder() + "/launch_scripts/";
+  std::string text = text_of(sources + "automata/paper.yaml");
+  const std::string before = "  width_m: 0.107\n";
+  text.insert(text.find(before), "  identified: {thrust_offset_mps2: -18.6}\n");
+  put(folder_ / "weak.yaml", text);
+  text = text_of(sources + "scenarios/paper_red_alone.yaml");
+  const std::string automaton = "../automata/paper.yaml";
+  text.replace(text.find(automaton), automaton.size(), "weak.yaml");
+  const std::string map = "../maps/lab_like.xml";
+  text.replace(text.find(map), map.size(), sources + "maps/lab_like.xml");
+  const std::string name = "name: paper_red_alone";
+  text.replace(text.find(name), name.size(), "name: weak_motor");
+  put(folder_ / "weak_motor.yaml", text);
+  const Outcome done =
+      run_program("evaluate --scenario " + (folder_ / "weak_motor.yaml").string() +
+                  ",paper_red_alone --steps 20" + kScenarios + " --out " + out_.string());
   EXPECT_EQ(done.exit_code, 1) << done.output;
   EXPECT_THAT(done.output, HasSubstr("2 runs, 1 failed"));
   const nlohmann::json runs = results()["runs"];
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_THAT(runs[0]["failure"].get<std::string>(), HasSubstr("left its announced areas"));
-  EXPECT_EQ(runs[0]["subgraph"], "effort");
+  EXPECT_EQ(runs[0]["subgraph"], "B");
   EXPECT_TRUE(runs[1]["failure"].is_null());
   const CsvTable rows = table("runs.csv");
   EXPECT_THAT(rows.text(0, rows.find("failure").value()), HasSubstr("left its announced areas"));
