@@ -116,7 +116,7 @@ TEST(Town, ScaledHasAllLengthsInTheSameProportion) {
   const LaneletMap town = town_map({.columns = 2, .rows = 1});
   const LaneletMap large = scaled(town, 18.0);
   EXPECT_EQ(large.benchmark_id, town.benchmark_id);
-  EXPECT_DOUBLE_EQ(narrowest_lane_m(large), 18.0 * narrowest_lane_m(town));
+  EXPECT_NEAR(narrowest_lane_m(large), 18.0 * narrowest_lane_m(town), 1e-9);
   for (const auto& [id, lanelet] : town.lanelets) {
     EXPECT_EQ(large.lanelets.at(id).successors, lanelet.successors);
     EXPECT_EQ(large.lanelets.at(id).right_m.back(), Point(18.0 * lanelet.right_m.back()));
