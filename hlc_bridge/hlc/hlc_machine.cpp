@@ -25,15 +25,17 @@ Nanoseconds step_ns(const controller::Controller& controller) {
   return static_cast<Nanoseconds>(std::llround(1e9 * controller.subgraph().automaton().step_s));
 }
 
+static_assert(kControllerStays >= 1e9 * controller::kLongestPlan_s);
+
 void check_plan_fits_commands(const controller::Controller& controller) {
   const std::size_t steps = controller.options().horizon_steps;
   const double step_s = controller.subgraph().automaton().step_s;
-  if (controller::num_copies(steps, step_s) <= controller::kMostCopies) return;
-  constexpr double kLongest_s = controller::followed_s(controller::kMostCopies);
+  if (static_cast<double>(steps + 1) * step_s <= controller::kLongestPlan_s + 1e-9) return;
   throw std::invalid_argument(
       "horizon_steps must be <= " +
-      std::to_string(std::lround(std::floor(kLongest_s / step_s + 1e-9)) - 1) + ", got " +
-      std::to_string(steps) + ": a vehicle drops its command before a longer plan has ended");
+      std::to_string(std::lround(std::floor(controller::kLongestPlan_s / step_s + 1e-9)) - 1) +
+      ", got " + std::to_string(steps) +
+      ": a minimal-risk stop ends before a longer plan has ended");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ inline constexpr Nanoseconds kStopSymbol = 0xFFFF'FFFF'FFFF'FFFFULL;
 inline constexpr Nanoseconds kStateDelay = 60'000'000;
 /// A vehicle drops a command this long after its valid_after stamp.
 inline constexpr Nanoseconds kCommandLifetime = 1'000'000'000;
-/// The second copy of a command becomes valid this long after the first, so that the vehicle can
+/// Each copy of a command becomes valid this long after the one before, so that the vehicle can
 /// drive the whole plan even if its controller dies at once.
 inline constexpr Nanoseconds kCopyDelay = 800'000'000;
 

@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
       ->excludes(map);
   double scale = 1.0;
   app.add_option("--scale", scale,
-                 "all lengths so many times as long: 18 for full-size cars, with lanes of 2.7 m")
+                 "factor on all lengths: 18 for full-size cars, with lanes of 2.7 m")
       ->check(hlc::apps::within(0.1, 100.0))
       ->capture_default_str();
   hlc::apps::declare_output(app, out, "file to write (XML)")->required();

@@ -13,8 +13,9 @@ namespace hlc::controller {
 inline constexpr double kCommandLifetime_s = 1.0;
 /// From one copy's time to become valid to that of the next one.
 inline constexpr double kCopyDelay_s = 0.8;
-/// More copies than these would fill the vehicle's memory of commands before they are replaced.
-inline constexpr std::size_t kMostCopies = 5;
+/// A plan and one step more last at most so long: a minimal-risk stop, in which every vehicle
+/// drives its plan to the end, is given this time before the run ends.
+inline constexpr double kLongestPlan_s = 3.0;
 
 /// How long a command with so many copies is followed. [s]
 [[nodiscard]] constexpr double followed_s(std::size_t num_copies) {

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kCorrection_per_s = 5.0;
 constexpr double kStandingSpeed_mps = 1e-3;
-/// Steps after the end of a plan in which the vehicle comes to rest: its error along the path has
-/// decayed to exp(-5).
-constexpr std::uint64_t kStepsToRest = 5;
+/// After the end of a plan, until the vehicle rests: its error along the path has decayed to
+/// exp(-5).
+constexpr double kToRest_s = 1.0;
 
 /// Time along a plan, in ticks of the identified model.
 struct Instant {
@@ -111,8 +111,9 @@ coordination::OccupiedAreas areas_with_drift(const coordination::Plan& plan, Ste
                                              double tolerated_m) {
   const vehicle::VehicleParameters& vehicle = automaton.vehicle;
   coordination::OccupiedAreas areas = plan.areas_from(from);
+  const auto to_rest = static_cast<std::uint64_t>(std::ceil(kToRest_s / automaton.step_s - 1e-9));
   const std::vector<PredictedInstant> drive =
-      predicted_drive(plan, seen, {std::max(plan.end(), from).value + kStepsToRest}, automaton);
+      predicted_drive(plan, seen, {std::max(plan.end(), from).value + to_rest}, automaton);
   bool drifts_at_end = false;
   for (auto begin = drive.begin(); begin != drive.end();) {
     const StepIndex step = begin->step;

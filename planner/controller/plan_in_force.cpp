@@ -159,7 +159,9 @@ void PlanInForce::return_to_driven_plan(StepIndex now) {
 }
 
 void PlanInForce::note_outside(const Pose& pose, double speed_mps, StepIndex now) {
-  outside_area_m_ = braking_area(pose, speed_mps, automaton_->vehicle);
+  const double steering_rad =
+      plan_.state_at(seen_.step, seen_.time_s, automaton_->vehicle).steering_rad;
+  outside_area_m_ = braking_area(pose, speed_mps, steering_rad, *automaton_);
   replaced_.doubt(now);
 }
 
@@ -189,7 +191,7 @@ ConvexPolygon PlanInForce::with_step(ConvexPolygon way, StepIndex step) const {
   const auto add = [&](const coordination::Plan& plan,
                        const coordination::OccupiedAreas& announced) {
     if (step < announced.first || step < plan.first()) return;
-    areas.push_back(driven_or_braked_area(plan, announced, step, automaton_->vehicle));
+    areas.push_back(driven_or_braked_area(plan, announced, step, *automaton_));
   };
   for (const ReplacedPlans::Former* one : replaced_.doubtful()) add(one->plan, one->announced);
   if (!outside_area_m_.empty()) {

@@ -10,7 +10,8 @@
 namespace hlc::controller {
 namespace {
 
-/// Boundary pieces this far beyond the reach of the plan are kept, so that none is missed.
+/// Boundary pieces this far beyond the reach of the plan are kept, so that none is missed: more
+/// than half the footprint's length. Of the µCar, for others scale_of times as long.
 constexpr double kBoundaryReserve_m = 0.4;
 /// Half the length of the chord whose direction counts as the path's.
 constexpr double kHalfChord_m = 0.02;
@@ -70,8 +71,8 @@ search::HorizonProblem problem_alone(const coordination::Traffic& own, const Rou
   if (options.contouring_weight > 0.0) {
     problem.contouring = contouring(tracker.route().path, reference.s_m, options.contouring_weight);
   }
-  problem.boundary_m =
-      corridor.boundary_m(s_m - kBoundaryReserve_m, s_m + reach_m + kBoundaryReserve_m);
+  const double reserve_m = scale_of(subgraph.automaton().vehicle.footprint) * kBoundaryReserve_m;
+  problem.boundary_m = corridor.boundary_m(s_m - reserve_m, s_m + reach_m + reserve_m);
   return problem;
 }
 

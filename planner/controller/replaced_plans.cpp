@@ -1,15 +1,21 @@
 #include "planner/controller/replaced_plans.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "planner/geometry/footprint.hpp"
+#include "planner/vehicle/identified_motion.hpp"
 
 namespace hlc::controller {
 namespace {
 
-/// Braking distance per speed.
+/// Braking distance of a µCar per speed.
 constexpr double kBraking_s = 0.25;
+/// A vehicle that brakes stands below this speed: it rolls on by less than the rounding of an area.
+constexpr double kStands_mps = 1e-4;
+constexpr int kMostTicks = 2000;  // 40 s
 
 Pose braked(const Pose& pose, double speed_mps) {
   const double distance_m = kBraking_s * speed_mps;
@@ -18,26 +24,63 @@ Pose braked(const Pose& pose, double speed_mps) {
           .heading_rad = pose.heading_rad};
 }
 
+/// Poses of a vehicle that drops its command now, one per tick until it stands.
+std::vector<Pose> stopping(const Pose& pose, double speed_mps, double steering_rad,
+                           const automaton::UniversalAutomaton& automaton) {
+  if (!automaton.identified.steering_rate_per_s) return {braked(pose, speed_mps)};
+  const vehicle::IdentifiedVehicle& identified = automaton.identified;
+  const double delta = vehicle::steady_steering(
+      vehicle::curvature_per_m(steering_rad, automaton.vehicle), identified);
+  std::array<vehicle::ActuatorInput, vehicle::kInputDelayTicks> under_way;  // oldest first
+  under_way.fill({.throttle = 0.0, .steering = delta - identified.steering_offset});
+  vehicle::VehicleMotion motion{.pose = pose, .speed_mps = speed_mps};
+  const auto stands = [&] {
+    return std::abs(motion.speed_mps) < kStands_mps &&
+           std::ranges::all_of(under_way, [](const vehicle::ActuatorInput& input) {
+             return std::abs(input.throttle) < kStands_mps;
+           });
+  };
+  std::vector<Pose> poses;
+  for (int tick = 0; tick < kMostTicks && !(tick > 0 && stands()); ++tick) {
+    const vehicle::ActuatorInput acting = under_way.front();
+    const vehicle::ActuatorInput last = under_way.back();
+    std::shift_left(under_way.begin(), under_way.end(), 1);
+    under_way.back() = vehicle::actuated(vehicle::stop_input(motion.speed_mps), last, identified);
+    motion = vehicle::stepped(motion, acting, identified);
+    poses.push_back(motion.pose);
+  }
+  return poses;
+}
+
+void add_stopping(const Pose& pose, double speed_mps, double steering_rad,
+                  const automaton::UniversalAutomaton& automaton,
+                  std::vector<ConvexPolygon>& areas) {
+  const vehicle::VehicleParameters& vehicle = automaton.vehicle;
+  for (const Pose& at : stopping(pose, speed_mps, steering_rad, automaton)) {
+    areas.push_back(footprint_area(vehicle.footprint, at, vehicle.safety_margin_m));
+  }
+}
+
 }  // namespace
 
-ConvexPolygon braking_area(const Pose& pose, double speed_mps,
-                           const vehicle::VehicleParameters& vehicle) {
-  const auto area_at = [&vehicle](const Pose& where) {
-    return footprint_area(vehicle.footprint, where, vehicle.safety_margin_m);
-  };
-  return convex_hull(std::vector{area_at(pose), area_at(braked(pose, speed_mps))});
+ConvexPolygon braking_area(const Pose& pose, double speed_mps, double steering_rad,
+                           const automaton::UniversalAutomaton& automaton) {
+  const vehicle::VehicleParameters& vehicle = automaton.vehicle;
+  std::vector<ConvexPolygon> areas{
+      footprint_area(vehicle.footprint, pose, vehicle.safety_margin_m)};
+  add_stopping(pose, speed_mps, steering_rad, automaton, areas);
+  return convex_hull(areas);
 }
 
 ConvexPolygon driven_or_braked_area(const coordination::Plan& plan,
                                     const coordination::OccupiedAreas& announced, StepIndex step,
-                                    const vehicle::VehicleParameters& vehicle) {
+                                    const automaton::UniversalAutomaton& automaton) {
   const ConvexPolygon& driven = announced.during(step);
   if (step >= plan.end()) return driven;
   std::vector<ConvexPolygon> areas{driven};
   for (const StepIndex at : {step, StepIndex{step.value + 1}}) {
-    const vehicle::State state = plan.state_at(at, 0.0, vehicle);
-    areas.push_back(footprint_area(vehicle.footprint, braked(state.pose, state.speed_mps),
-                                   vehicle.safety_margin_m));
+    const vehicle::State state = plan.state_at(at, 0.0, automaton.vehicle);
+    add_stopping(state.pose, state.speed_mps, state.steering_rad, automaton, areas);
   }
   return convex_hull(areas);
 }

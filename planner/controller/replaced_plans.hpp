@@ -10,18 +10,24 @@
 namespace hlc::controller {
 
 /// Area of a vehicle that drives `plan` during the step, or drops its command then and brakes: the
-/// announced area, and, from its pose at the beginning and at the end of the step, the area of
-/// braking straight on.
+/// announced area, and the areas of braking from its pose at the beginning and at the end of the
+/// step.
 ///
-/// The lab's stop law takes a vehicle of 0.4 ... 1.2 m/s on by 0.20 ... 0.24 s times its speed, up
-/// to 40 mm to the inside of a curve, never to its outside.
+/// The lab's stop law takes a µCar of 0.4 ... 1.2 m/s on by 0.20 ... 0.24 s times its speed, up to
+/// 40 mm to the inside of a curve, never to its outside: for it the area is that of braking
+/// straight on for 0.25 s times the speed. A vehicle with a servo that needs time to turn goes on
+/// in its curve for a while: its area is that of the stop law
+/// (planner/vehicle/identified_motion.hpp), from the planned speed and steering on, after the
+/// inputs under way, which keep the speed.
 [[nodiscard]] ConvexPolygon driven_or_braked_area(const coordination::Plan& plan,
                                                   const coordination::OccupiedAreas& announced,
                                                   StepIndex step,
-                                                  const vehicle::VehicleParameters& vehicle);
-/// Area of braking straight on from the pose to standstill. @param pose  yaw
-[[nodiscard]] ConvexPolygon braking_area(const Pose& pose, double speed_mps,
-                                         const vehicle::VehicleParameters& vehicle);
+                                                  const automaton::UniversalAutomaton& automaton);
+/// Area of braking from the pose to standstill.
+/// @param pose          yaw
+/// @param steering_rad  at first; of no account where the servo turns within a tick
+[[nodiscard]] ConvexPolygon braking_area(const Pose& pose, double speed_mps, double steering_rad,
+                                         const automaton::UniversalAutomaton& automaton);
 
 /// Plans that were in force before the present one, each as long as the vehicle may still drive it:
 /// the commands of the newer ones may have been lost. A value; copies share the plans.

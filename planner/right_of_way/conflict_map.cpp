@@ -9,6 +9,7 @@
 namespace hlc::right_of_way {
 namespace {
 
+// Lengths for the µCar, as ConflictRules.
 constexpr double kHalfChord_m = 0.05;
 constexpr double kCurvatureChord_m = 0.06;
 /// Half the steering lock of any vehicle that this is for; a spike of a polyline's curvature must
@@ -73,9 +74,9 @@ void ConflictMap::add_route(const road::DrivableRoute& route,
     const double s_m = length_m * static_cast<double>(i) / static_cast<double>(count);
     const Point point_m = route.driving_line.at(route.path, s_m);
     const Pose pose{point_m.x(), point_m.y(),
-                    road::chord_heading_rad(route.path, s_m, kHalfChord_m)};
-    const double slip =
-        vehicle.rear_axle_to_cg_m * road::chord_curvature_per_m(route.path, s_m, kCurvatureChord_m);
+                    road::chord_heading_rad(route.path, s_m, scale_ * kHalfChord_m)};
+    const double slip = vehicle.rear_axle_to_cg_m *
+                        road::chord_curvature_per_m(route.path, s_m, scale_ * kCurvatureChord_m);
     Pose turned = pose;
     turned.heading_rad -= std::asin(std::clamp(slip, -kMostSlip, kMostSlip));
     cells.push_back(
@@ -97,7 +98,7 @@ std::uint32_t ConflictMap::joined(Cell cell, const ConflictRules& rules, NearPoi
     const double along_m = std::abs(along.dot(offset_m));
     const double across_m = std::abs(along.x() * offset_m.y() - along.y() * offset_m.x());
     const double turned_rad = std::abs(wrap_angle(other.heading_rad - cell.pose.heading_rad));
-    if (across_m > kSameLane_m || turned_rad > kSameLane_rad || along_m > least_m) return;
+    if (across_m > scale_ * kSameLane_m || turned_rad > kSameLane_rad || along_m > least_m) return;
     best = i;
     least_m = along_m;
   };

@@ -13,7 +13,8 @@
 namespace hlc::road {
 namespace {
 
-constexpr double kSampling_m = 0.04;  // of the µCar, for others scale_of
+// Lengths for the µCar; for others scale_of times as long, but for kHalfChord_m of a line alone.
+constexpr double kSampling_m = 0.04;
 constexpr double kHalfChord_m = 0.05;
 constexpr double kCurvatureChord_m = 0.10;
 /// Share of the room towards the kerb by which the line is moved.
@@ -24,17 +25,19 @@ constexpr std::ptrdiff_t kSmoothed = 4;
 /// angle between the two.
 constexpr double kNearestLane = 0.67;
 constexpr double kFarthestLane = 1.27;
-constexpr double kBeside_m = 0.06;  // of the µCar
+constexpr double kBeside_m = 0.06;
 constexpr double kParallel_rad = 0.4;
 
 /// Equidistant poses along a closed path.
-std::vector<Pose> samples_of(const ReferencePath& path, double sampling_m) {
+std::vector<Pose> samples_of(const ReferencePath& path, double scale) {
+  const double sampling_m = scale * kSampling_m;
   const auto count = static_cast<std::size_t>(std::max(1.0, path.length_m() / sampling_m));
   std::vector<Pose> samples;
   for (std::size_t i = 0; i < count; ++i) {
     const double s_m = path.length_m() * static_cast<double>(i) / static_cast<double>(count);
     const Point point_m = path.at(s_m);
-    samples.push_back({point_m.x(), point_m.y(), chord_heading_rad(path, s_m, kHalfChord_m)});
+    samples.push_back(
+        {point_m.x(), point_m.y(), chord_heading_rad(path, s_m, scale * kHalfChord_m)});
   }
   return samples;
 }
@@ -123,7 +126,7 @@ std::vector<DrivingLine> driving_lines(std::span<const ReferencePath> paths, dou
                                        const Footprint& footprint) {
   std::vector<std::vector<Pose>> samples;
   const double scale = scale_of(footprint);
-  for (const ReferencePath& path : paths) samples.push_back(samples_of(path, scale * kSampling_m));
+  for (const ReferencePath& path : paths) samples.push_back(samples_of(path, scale));
   const NeighbourLanes lanes(samples, lane_width_m, scale * kBeside_m);
   const double room_m = (lane_width_m - footprint.width_m) / 2.0;
   const double overhang_m2 = footprint.length_m * footprint.length_m / 8.0;
@@ -134,7 +137,7 @@ std::vector<DrivingLine> driving_lines(std::span<const ReferencePath> paths, dou
       const double s_m =
           paths[p].length_m() * static_cast<double>(i) / static_cast<double>(samples[p].size());
       const double overhang_m =
-          overhang_m2 * chord_curvature_per_m(paths[p], s_m, kCurvatureChord_m);
+          overhang_m2 * chord_curvature_per_m(paths[p], s_m, scale * kCurvatureChord_m);
       const Sides sides = lanes.beside(samples[p][i]);
       const double away = sides.left == sides.right ? 0.0 : sides.right ? 1.0 : -1.0;
       left_m.push_back(away * kShare * (room_m + away * overhang_m));

@@ -482,8 +482,8 @@ TEST(HlcMachineEnd, WhatTheOwnerCouldNotWriteIsSaidAndItsExitCode) {
   EXPECT_TRUE(one.has_logged("no space left"));
 }
 
-TEST(HlcMachineEnd, APlanThatIsLongerThanACommandAndItsCopiesIsRefusedByNameValueAndBound) {
-  controller::ControllerOptions options{.vehicle = {1}, .horizon_steps = 25};
+TEST(HlcMachineEnd, APlanThatIsLongerThanAMinimalRiskStopIsRefusedByNameValueAndBound) {
+  controller::ControllerOptions options{.vehicle = {1}, .horizon_steps = 15};
   auto controller = std::make_unique<controller::Controller>(
       options, controller::east_bound::subgraph(),
       road::ReferencePath({Point(0.0, 0.0), Point(9.0, 0.0)}, false), road::Corridor{});
@@ -491,7 +491,7 @@ TEST(HlcMachineEnd, APlanThatIsLongerThanACommandAndItsCopiesIsRefusedByNameValu
     const HlcMachine machine({.rules = real_time()}, std::move(controller));
     ADD_FAILURE();
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), testing::StartsWith("horizon_steps must be <= 24, got 25"));
+    EXPECT_THAT(error.what(), testing::StartsWith("horizon_steps must be <= 14, got 15"));
   }
 }
 

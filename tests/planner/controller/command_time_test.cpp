@@ -23,6 +23,8 @@ TEST(CommandTime, AsManyCopiesAreSentAsAPlanAndOneStepMoreNeed) {
     }
     EXPECT_GE(static_cast<double>(drivable_steps(steps, step_s)) * step_s,
               followed_s(copies) + step_s - 1e-9);
+    EXPECT_LT(static_cast<double>(drivable_steps(steps, step_s)) * step_s,
+              followed_s(copies) + 2.0 * step_s + 1e-9);
   }
 }
 
@@ -37,9 +39,9 @@ TEST(CommandTime, InShorterStepsAReplacedPlanIsRememberedForMoreOfThem) {
   EXPECT_EQ(drivable_steps(17, 0.1), 19U);
 }
 
-TEST(CommandTime, AFullSizeCarsPlanOfFourSecondsNeedsFiveCopies) {
-  EXPECT_EQ(num_copies(8, 0.5), 5U);
-  EXPECT_EQ(drivable_steps(8, 0.5), 11U);
+TEST(CommandTime, AFullSizeCarsPlanOfTwoAndAHalfSecondsNeedsThreeCopies) {
+  EXPECT_EQ(num_copies(5, 0.5), 3U);
+  EXPECT_EQ(drivable_steps(5, 0.5), 8U);
 }
 
 }  // namespace

@@ -11,6 +11,14 @@
 namespace hlc::closed_loop::own_vehicle_test {
 namespace {
 
+double driven_m(const result::Drive& drive) {
+  double way_m = 0.0;
+  for (std::size_t i = 1; i < drive.size(); ++i) {
+    way_m += (drive[i].pose.position_m() - drive[i - 1].pose.position_m()).norm();
+  }
+  return way_m;
+}
+
 class OwnVehicleRuns : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(OwnVehicleRuns, StayWithinTheirSafetyMarginAndTouchNobody) {
@@ -26,11 +34,13 @@ TEST_P(OwnVehicleRuns, StayWithinTheirSafetyMarginAndTouchNobody) {
     const result::RunSummary summary = result::summarize(result::describe(scenario, seed),
                                                          experiment.facts, rows, experiment.drives);
     EXPECT_EQ(summary.collisions, 0U);
+    const double length_m = scenario.subgraph->automaton().vehicle.footprint.length_m;
     const double margin_m = scenario.subgraph->automaton().vehicle.safety_margin_m;
     for (const result::VehicleSummary& vehicle : summary.vehicles) {
       ASSERT_TRUE(vehicle.deviation_max_m);
       EXPECT_LE(*vehicle.deviation_max_m, margin_m);
       EXPECT_FALSE(vehicle.is_stuck);
+      EXPECT_GT(driven_m(experiment.drives.at(vehicle.id.value)), 10.0 * length_m);
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "planner/controller/replaced_plans.hpp"
 #include "tests/support/num_seeds.hpp"
 #include "vehicle_sim/plant/plant.hpp"
 
@@ -91,6 +92,38 @@ TEST(OwnVehicle, DrivesTheSingleTrackModelsCircleAtFullSteering) {
     const double slip_rad = wrap_angle(std::atan2(moved.y(), moved.x()) - from.pose.heading_rad);
     EXPECT_NEAR(slip_rad, vehicle::slip_angle_rad(one.limits.steering_max_rad, one.parameters),
                 1e-9);
+  }
+}
+
+/// Others keep clear of this area where a vehicle may have dropped its command.
+TEST(OwnVehicle, ThatDropsItsCommandInACurveStaysInItsBrakingArea) {
+  for (std::uint64_t seed = 1; seed <= test::num_seeds(200); ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const OwnVehicle one = drawn(random);
+    automaton::UniversalAutomaton automaton{.vehicle = one.parameters, .limits = one.limits};
+    automaton.vehicle.footprint = {1.5 * one.parameters.wheelbase_m,
+                                   0.7 * one.parameters.wheelbase_m};
+    automaton.vehicle.safety_margin_m = 0.001;
+    automaton.identified = vehicle::kinematic_vehicle(one.parameters, one.limits);
+    const double steering = std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+    Plant plant = plant_of(one);
+    for (int tick = 0; tick < 500; ++tick) plant.step({.steering = steering});
+    const double wanted_mps = std::uniform_real_distribution<double>(0.5, 8.0)(random);
+    for (int tick = 0; plant.motion().speed_mps < wanted_mps; ++tick) {
+      plant.step({.throttle = 0.1, .steering = steering});
+    }
+    for (int tick = 0; tick < 5; ++tick) plant.step({.steering = steering});
+    const vehicle::VehicleMotion from = plant.motion();
+    const double curvature = automaton.identified.yaw_rate_gain_per_m * steering;
+    const ConvexPolygon area = controller::braking_area(
+        from.pose, from.speed_mps, vehicle::steering_for_curvature_rad(curvature, one.parameters),
+        automaton);
+    for (int tick = 0; tick < 2000; ++tick) {
+      plant.step(vehicle::stop_input(plant.motion().speed_mps));
+      ASSERT_TRUE(contains(area, footprint_area(automaton.vehicle.footprint, plant.motion().pose)))
+          << tick;
+    }
   }
 }
 

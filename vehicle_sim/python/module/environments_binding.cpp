@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -31,7 +30,8 @@ py::tuple tuple_of(const Environments& environments, const Observed& observed) {
       flags(observed.permitted, {num, cars, environments.num_actions()}));
 }
 
-void check(const Environments& environments, const Actions& actions) {
+/// A copy: other threads may write the array while the lock is released.
+std::vector<std::int64_t> checked(const Environments& environments, const Actions& actions) {
   if (!environments.has_begun())
     throw std::invalid_argument("step: no episode has begun, reset must be called first");
   const auto num = static_cast<py::ssize_t>(environments.num_environments());
@@ -40,11 +40,12 @@ void check(const Environments& environments, const Actions& actions) {
     throw std::invalid_argument(fmt::format("actions: must be of the shape ({}, {})", num, cars));
   }
   const auto most = static_cast<std::int64_t>(environments.num_actions());
-  for (const std::int64_t one :
-       std::span(actions.data(), static_cast<std::size_t>(actions.size()))) {
+  std::vector<std::int64_t> all(actions.data(), actions.data() + actions.size());
+  for (const std::int64_t one : all) {
     if (one < 0 || one >= most)
       throw std::invalid_argument(fmt::format("actions: {}, must be 0 ... {}", one, most - 1));
   }
+  return all;
 }
 
 py::tuple reset(Environments& environments, std::uint64_t seed) {
@@ -57,8 +58,7 @@ py::tuple reset(Environments& environments, std::uint64_t seed) {
 }
 
 py::tuple step(Environments& environments, const Actions& actions) {
-  check(environments, actions);
-  const std::span all(actions.data(), static_cast<std::size_t>(actions.size()));
+  const std::vector<std::int64_t> all = checked(environments, actions);
   Observed observed;
   {
     const py::gil_scoped_release release;

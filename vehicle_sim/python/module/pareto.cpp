@@ -77,8 +77,10 @@ class PythonCost : public maneuver_design::RunningCost {
     const py::gil_scoped_acquire acquire;
     const py::object both = called(gradient_, x, u);
     if (!py::isinstance<py::sequence>(both) || py::len(both) != 2) refuse_gradient();
-    const py::array_t<double, py::array::forcecast> by_state(both[py::int_(0)]);
-    const py::array_t<double, py::array::forcecast> by_input(both[py::int_(1)]);
+    const py::array_t<double, py::array::c_style | py::array::forcecast> by_state(
+        both[py::int_(0)]);
+    const py::array_t<double, py::array::c_style | py::array::forcecast> by_input(
+        both[py::int_(1)]);
     if (by_state.size() != 5 || by_input.size() != 2) refuse_gradient();
     maneuver_design::CostGradient result;
     for (py::ssize_t i = 0; i < 5; ++i) result.state(i) = finite(by_state.data()[i], "gradient");
