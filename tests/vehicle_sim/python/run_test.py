@@ -71,7 +71,7 @@ class RunTest(unittest.TestCase):
             thread.start()
             while thread.is_alive():
                 turns[0] += 1
-                time.sleep(0)
+                time.sleep(0)  # no wait: it hands the lock over, once
             thread.join()
             sys.setswitchinterval(interval)
             self.assertGreater(during[0], 0)
