@@ -72,6 +72,18 @@ class LearningTest(unittest.TestCase):
         self.assertEqual([bool(one.truncated[0]) for one in truncated], [False, False, True])
         self.assertFalse(np.array_equal(truncated[-1].observations, begin))
 
+    def test_the_final_observations_are_those_before_the_next_episode(self):
+        long, short = hlc.Environments(self.three, 2), hlc.Environments(self.three, 2, episode_steps=3)
+        begin = short.reset(1)
+        long.reset(1)
+        np.testing.assert_array_equal(begin.final_observations, begin.observations)
+        fast = np.full((2, 3), int(np.argmax(self.three.trims[:, 0])))
+        for step in range(3):
+            result, goes_on = short.step(fast), long.step(fast)
+            self.assertFalse(goes_on.terminated.any())
+            np.testing.assert_array_equal(result.final_observations, goes_on.observations)
+            self.assertEqual(np.array_equal(result.observations, result.final_observations), step < 2)
+
     def test_who_drives_straight_on_leaves_its_lanes(self):
         environments = hlc.Environments(self.three, 8)
         environments.reset(1)
@@ -150,6 +162,18 @@ class ParallelEnvTest(unittest.TestCase):
         self.assertLessEqual(steps, 20)
         with self.assertRaisesRegex(hlc.Error, "must be reset"):
             self.env.step({})
+
+    def test_the_last_observations_of_an_episode_are_those_of_its_end(self):
+        scenario = hlc.load_scenario("paper_three_cars")
+        short, long = hlc.ParallelEnv(scenario, episode_steps=2), hlc.ParallelEnv(scenario, episode_steps=9)
+        fast = dict.fromkeys(short.possible_agents, int(np.argmax(scenario.trims[:, 0])))
+        for one in (short, long):
+            one.reset(seed=3)
+            one.step(fast)
+        last, truncations = short.step(fast)[0::3]
+        self.assertTrue(all(truncations.values()))
+        np.testing.assert_array_equal(last["red"], long.step(fast)[0]["red"])
+        self.assertGreater(last["red"][0], 0.0)
 
     def test_the_seed_repeats_an_episode(self):
         first = self.env.reset(seed=3)[0]

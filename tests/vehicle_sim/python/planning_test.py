@@ -110,8 +110,13 @@ class ParetoTest(unittest.TestCase):
 
     def test_nonsense_of_a_cost_is_named(self):
         cases = [({"value": lambda x, u: float("nan")}, "value of a Cost is nan, must be finite"),
-                 ({"gradient": lambda x, u: (np.zeros(4), u)}, "gradient of a Cost must be two arrays"),
-                 ({"gradient": lambda x, u: 3}, "gradient of a Cost must be two arrays")]
+                 ({"value": lambda x, u: None}, "value of a Cost is None, must be a number"),
+                 ({"value": lambda x, u: "much"}, "value of a Cost is 'much', must be a number"),
+                 ({"value": lambda x, u: 10**400}, "value of a Cost is 1000.*, must be a number"),
+                 ({"gradient": lambda x, u: (np.zeros(4), u)}, r"gradient of a Cost is \(array.*, must be two arrays"),
+                 ({"gradient": lambda x, u: ("steep", u)}, r"gradient of a Cost is \('steep', .*, must be two arrays"),
+                 ({"gradient": lambda x, u: ([[1], [2, 3]], u)}, r"gradient of a Cost is \(\[\[1.*, must be two"),
+                 ({"gradient": lambda x, u: 3}, "gradient of a Cost is 3, must be two arrays")]
         for parts, message in cases:
             with self.subTest(message=message), self.assertRaisesRegex(hlc.Error, message):
                 hlc.pareto_front("paper", FROM, TO, criteria=["J1", effort(**parts)], points=3)

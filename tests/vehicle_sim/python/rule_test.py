@@ -58,7 +58,7 @@ class RuleTest(unittest.TestCase):
         self.assertEqual(hlc.drive(self.three).planned.shape, (25, 3, 3))
 
     def test_a_nonsense_order_is_refused_with_the_vehicles(self):
-        for order in ([1, 1], [99], ["1"], 3, "12", None, [1.0], [-1], [257]):
+        for order in ([1, 1], [99], ["1"], 3, "12", None, [1.0], [-1], [257], [2**70], [-(2**70)], {1: 2, 9: 1}):
             with self.subTest(order=order), self.assertRaisesRegex(
                     hlc.Error, "priorities: the function returned .*, must be a sequence of some of the vehicles .*"):
                 hlc.rollout(self.three, priorities=lambda situation, order=order: order)

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -75,6 +76,30 @@ class RunTest(unittest.TestCase):
             thread.join()
             sys.setswitchinterval(interval)
             self.assertGreater(during[0], 0)
+
+    def test_signals_are_handled_once_per_step(self):
+        # The timer is shorter than a step, so that each check finds a signal: one check in 16 steps would handle 4.
+        handled = []
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, lambda *_: handled.append(1)))
+        self.addCleanup(signal.setitimer, signal.ITIMER_REAL, 0.0)
+        crowd = hlc.load_scenario("circle", cars=8, steps=60)
+        for run in (hlc.drive, hlc.rollout):
+            signal.setitimer(signal.ITIMER_REAL, 1e-4, 1e-4)
+            before = len(handled)
+            run(crowd)
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            self.assertGreater(len(handled) - before, 30)
+
+    def test_an_interrupt_ends_a_run(self):
+        def interrupt(*_):
+            raise KeyboardInterrupt
+
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, interrupt))
+        for run in (hlc.drive, hlc.rollout):
+            signal.setitimer(signal.ITIMER_REAL, 0.01)
+            with self.assertRaises(KeyboardInterrupt):
+                for _ in range(MOST_RUNS):
+                    run(self.three)
 
     def test_arrays_have_a_row_per_step_and_a_column_per_vehicle(self):
         self.assertEqual(self.driven.planned.shape, (30, 3, 3))

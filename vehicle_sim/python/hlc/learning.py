@@ -25,6 +25,8 @@ class StepResult(NamedTuple):
     """(E,): the episode's steps are over, or a route ended."""
     permitted: NDArray[np.bool_]
     """(E, C, A): actions that the next step can take as they are."""
+    final_observations: NDArray[np.float32]
+    """(E, C, F): where an episode ended in this step its last observations, else `observations`."""
 
 
 class Environments:
@@ -38,7 +40,8 @@ class Environments:
     the car's place, the planner's cost of a step; one less in the step in which the car is terminated.
 
     An episode ends with the first terminated car, or after `episode_steps`; the next one begins at once, so that the
-    observations are its first ones. Cars start standing, at random places of their routes.
+    observations are its first ones; the last ones of the episode that ended are the final observations. Cars start
+    standing, at random places of their routes.
 
     Observation, F = 10 + 5 (C - 1) numbers in the car's frame (x forward, y left): speed [m/s], steering [rad]; x and y
     [m] of its route 0.2, 0.4, 0.8 and 1.6 m ahead; of each other car x, y [m], cosine and sine of its relative heading,
@@ -157,7 +160,8 @@ class ParallelEnv:
         return self._by_agent(result.observations[0]), self._infos(result)
 
     def step(self, actions: dict[str, int]) -> tuple[dict[str, Any], ...]:
-        """(observations, rewards, terminations, truncations, infos), each by agent."""
+        """(observations, rewards, terminations, truncations, infos), each by agent. At the end of an episode the
+        observations are its last ones; the action masks are of no use then."""
         if not self.agents:
             raise _core.Error("step: the episode is over, must be reset")
         missing = [agent for agent in self.agents if agent not in actions]
@@ -166,7 +170,7 @@ class ParallelEnv:
         result = self._all.step(np.array([[int(actions[agent]) for agent in self.agents]]))
         is_terminated = bool(result.terminated.any())
         is_truncated = bool(result.truncated[0])
-        answer = (self._by_agent(result.observations[0]), self._by_agent(result.rewards[0].astype(float)),
+        answer = (self._by_agent(result.final_observations[0]), self._by_agent(result.rewards[0].astype(float)),
                   {agent: is_terminated for agent in self.agents}, {agent: is_truncated for agent in self.agents},
                   self._infos(result))
         if is_terminated or is_truncated:

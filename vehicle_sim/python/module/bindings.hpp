@@ -2,11 +2,16 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 /// The extension module `hlc._core`: plain functions and classes, whose arrays the Python package
 /// `hlc` gives names, shapes, units and documents. One file per subject, each with one function.
 namespace hlc::python {
 
 namespace py = pybind11;
+
+/// What a Python function returned, for a message: its repr in one line.
+[[nodiscard]] std::string text_of(const py::handle& returned);
 
 /// `Error`, a ValueError: what the planner refuses and what cannot be read, with the same one line
 /// as of the programs. @pre the first one

@@ -192,7 +192,10 @@ void Environments::step(std::span<const std::int64_t> actions, Observed& observe
     }
     const bool is_last = ++environment.step >= options_.episode_steps || is_at_end;
     observed.truncated[e] = static_cast<std::uint8_t>(is_last && !is_terminated);
-    if (is_last || is_terminated) begin(environment);
+    observe(e, observed);
+    keep_final(e, observed);
+    if (!is_last && !is_terminated) continue;
+    begin(environment);
     observe(e, observed);
   }
 }
@@ -203,16 +206,24 @@ void Environments::reset(std::uint64_t seed, Observed& observed) {
     environments_[e].random.seed(seed + e);
     begin(environments_[e]);
     observe(e, observed);
+    keep_final(e, observed);
   }
 }
 
 void Environments::prepare(Observed& observed) const {
   const std::size_t num = num_environments() * num_cars();
   observed.observations.resize(num * num_features());
+  observed.final_observations.resize(num * num_features());
   observed.rewards.assign(num, 0.0F);
   observed.terminated.assign(num, 0);
   observed.truncated.assign(num_environments(), 0);
   observed.permitted.assign(num * num_actions(), 0);
+}
+
+void Environments::keep_final(std::size_t index, Observed& observed) const {
+  const auto num = static_cast<std::ptrdiff_t>(num_cars() * num_features());
+  const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(index) * num;
+  std::copy_n(observed.observations.begin() + at, num, observed.final_observations.begin() + at);
 }
 
 void Environments::observe(std::size_t index, Observed& observed) const {

@@ -21,11 +21,12 @@ struct EnvironmentOptions {
 
 /// What a learner sees of one step of all environments; sizes in Environments.
 struct Observed {
-  std::vector<float> observations;       ///< [environment][car][feature]
-  std::vector<float> rewards;            ///< [environment][car]
-  std::vector<std::uint8_t> terminated;  ///< [environment][car]: it met something in this step
-  std::vector<std::uint8_t> truncated;   ///< [environment]: the episode's steps are over
-  std::vector<std::uint8_t> permitted;   ///< [environment][car][action]
+  std::vector<float> observations;        ///< [environment][car][feature]
+  std::vector<float> rewards;             ///< [environment][car]
+  std::vector<std::uint8_t> terminated;   ///< [environment][car]: it met something in this step
+  std::vector<std::uint8_t> truncated;    ///< [environment]: the episode's steps are over
+  std::vector<std::uint8_t> permitted;    ///< [environment][car][action]
+  std::vector<float> final_observations;  ///< as observations, where an episode ended its last ones
 };
 
 /// E independent copies of a scenario's C cars in which a learner plans instead of the planner:
@@ -42,7 +43,9 @@ struct Observed {
 /// **Terminated** is a car whose area of the step (footprint and safety margin) meets another
 /// car's or an obstacle, or whose footprint crosses a bound of its lanes. The episode ends with the
 /// first such car or after `episode_steps`, or at the end of a route that is not closed. The next
-/// one begins at once: the observations of a step that ends an episode are those of the next begin.
+/// one begins at once: the observations of a step that ends an episode are those of the next begin,
+/// its final observations those of the end, from which a learner computes the value of a truncated
+/// episode. Where no episode ends, and after a reset, both are equal.
 ///
 /// **Observation** of a car, kOwn + kOther (C - 1) numbers, lengths [m] and angles in its frame
 /// (x forward, y to the left):
@@ -107,6 +110,8 @@ class Environments {
   /// @return its reward without the one for termination
   double move(const Route& route, std::size_t action, Car& car) const;
   void observe(std::size_t index, Observed& observed) const;
+  /// What was observed last of that environment is also its final observation.
+  void keep_final(std::size_t index, Observed& observed) const;
   void prepare(Observed& observed) const;
 
   std::string file_;  ///< of the scenario, for messages

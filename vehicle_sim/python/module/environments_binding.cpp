@@ -27,7 +27,9 @@ py::tuple tuple_of(const Environments& environments, const Observed& observed) {
       new_array<float>({num, cars, environments.num_features()}, observed.observations.data()),
       new_array<float>({num, cars}, observed.rewards.data()),
       flags(observed.terminated, {num, cars}), flags(observed.truncated, {num}),
-      flags(observed.permitted, {num, cars, environments.num_actions()}));
+      flags(observed.permitted, {num, cars, environments.num_actions()}),
+      new_array<float>({num, cars, environments.num_features()},
+                       observed.final_observations.data()));
 }
 
 /// A copy: other threads may write the array while the lock is released.

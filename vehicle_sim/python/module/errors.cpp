@@ -1,6 +1,8 @@
 #include <exception>
 #include <stdexcept>
+#include <string>
 
+#include "planner/common/yaml_text.hpp"
 #include "vehicle_sim/python/module/bindings.hpp"
 
 namespace hlc::python {
@@ -20,6 +22,10 @@ void translate(const std::exception_ptr& thrown, PyObject* error) {
 }
 
 }  // namespace
+
+std::string text_of(const py::handle& returned) {
+  return one_line(py::cast<std::string>(py::repr(returned)));
+}
 
 void bind_errors(py::module_& module) {
   // The translator is a function without state; the module owns the class and is never unloaded.

@@ -60,7 +60,10 @@ class PythonCost : public maneuver_design::RunningCost {
                              const vehicle::Input& u) const override {
     return failure_->guarded([&] {
       const py::gil_scoped_acquire acquire;
-      return finite(py::cast<double>(called(value_, x, u)), "value");
+      const py::object value = called(value_, x, u);
+      const double number = PyFloat_AsDouble(value.ptr());
+      if (number == -1.0 && PyErr_Occurred() != nullptr) refuse_value(value);
+      return finite(number, "value");
     });
   }
 
@@ -72,16 +75,17 @@ class PythonCost : public maneuver_design::RunningCost {
   [[nodiscard]] bool depends_on_pose() const override { return depends_on_pose_; }
 
  private:
+  using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
   [[nodiscard]] maneuver_design::CostGradient called_gradient(const vehicle::StateVector& x,
                                                               const vehicle::Input& u) const {
     const py::gil_scoped_acquire acquire;
     const py::object both = called(gradient_, x, u);
-    if (!py::isinstance<py::sequence>(both) || py::len(both) != 2) refuse_gradient();
-    const py::array_t<double, py::array::c_style | py::array::forcecast> by_state(
-        both[py::int_(0)]);
-    const py::array_t<double, py::array::c_style | py::array::forcecast> by_input(
-        both[py::int_(1)]);
-    if (by_state.size() != 5 || by_input.size() != 2) refuse_gradient();
+    if (!py::isinstance<py::sequence>(both) || py::len(both) != 2) refuse_gradient(both);
+    const Numbers by_state = Numbers::ensure(both[py::int_(0)]);
+    const Numbers by_input = Numbers::ensure(both[py::int_(1)]);
+    if (!by_state || !by_input || by_state.size() != 5 || by_input.size() != 2)
+      refuse_gradient(both);
     maneuver_design::CostGradient result;
     for (py::ssize_t i = 0; i < 5; ++i) result.state(i) = finite(by_state.data()[i], "gradient");
     for (py::ssize_t i = 0; i < 2; ++i) result.input(i) = finite(by_input.data()[i], "gradient");
@@ -97,9 +101,17 @@ class PythonCost : public maneuver_design::RunningCost {
     throw std::invalid_argument(
         fmt::format("criteria: the {} of a Cost is {}, must be finite", of, number));
   }
-  [[noreturn]] static void refuse_gradient() {
+  /// The pending exception, of a conversion, is dropped. @pre there is one
+  [[noreturn]] static void refuse_value(const py::object& returned) {
+    PyErr_Clear();
     throw std::invalid_argument(
-        "criteria: the gradient of a Cost must be two arrays, of 5 numbers (dl/dx) and 2 (dl/du)");
+        fmt::format("criteria: the value of a Cost is {}, must be a number", text_of(returned)));
+  }
+  [[noreturn]] static void refuse_gradient(const py::object& returned) {
+    throw std::invalid_argument(
+        fmt::format("criteria: the gradient of a Cost is {}, must be two arrays, of 5 numbers "
+                    "(dl/dx) and 2 (dl/du)",
+                    text_of(returned)));
   }
 
   py::object value_;

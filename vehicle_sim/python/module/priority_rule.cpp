@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "planner/common/demand.hpp"
-#include "planner/common/yaml_text.hpp"
 #include "vehicle_sim/python/module/arrays.hpp"
 
 namespace hlc::python {
@@ -44,7 +43,7 @@ py::object answer_to(const PrioritySituation& situation) {
   throw std::invalid_argument(
       fmt::format("priorities: the function returned {}, must be a sequence of some of the "
                   "vehicles {}, none twice",
-                  one_line(py::cast<std::string>(py::repr(answer))), fmt::join(known, ", ")));
+                  text_of(answer), fmt::join(known, ", ")));
 }
 
 std::vector<VehicleId> order_of(const PrioritySituation& situation) {
@@ -58,7 +57,9 @@ std::vector<VehicleId> order_of(const PrioritySituation& situation) {
   std::vector<VehicleId> order;
   for (const py::handle& one : answer) {
     if (PyIndex_Check(one.ptr()) == 0) refuse(answer, situation);
-    const auto id = py::cast<long long>(one);
+    // A number beyond the range, which is no vehicle either, becomes the nearest one in it.
+    const Py_ssize_t id = PyNumber_AsSsize_t(one.ptr(), nullptr);
+    if (id == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
     const auto found = std::ranges::find(known, id, [](VehicleId it) { return it.value; });
     if (found == known.end() || std::ranges::find(order, *found) != order.end()) {
       refuse(answer, situation);

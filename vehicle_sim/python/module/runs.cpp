@@ -35,8 +35,8 @@ struct RunChoices {
 };
 
 /// A pending Ctrl-C ends the run as an exception of Python, which only its main thread receives. To
-/// be asked in every step, without the interpreter's lock: other threads' Python code can hold it
-/// for some milliseconds, so it is taken rarely, and in other threads never.
+/// be asked once per step, without the interpreter's lock. The lock is taken in the main thread
+/// only, because another thread's Python code can hold it for some milliseconds.
 class Interruption {
  public:
   Interruption() {
@@ -44,15 +44,13 @@ class Interruption {
     is_main_ = threading.attr("current_thread")().is(threading.attr("main_thread")());
   }
   void check() {
-    if (!is_main_ || ++steps_ % kStepsPerCheck != 0) return;
+    if (!is_main_) return;
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   }
 
  private:
-  static constexpr std::size_t kStepsPerCheck = 16;
   bool is_main_;
-  std::size_t steps_{};
 };
 
 scenario::Scenario scenario_of(const LoadedScenario& loaded, const RunChoices& choices) {
@@ -212,10 +210,11 @@ py::dict drive(const LoadedScenario& loaded, std::optional<std::size_t> steps,
                                          .noise_seed = noise_seed,
                                          .forks = forks_of(forks, scenario),
                                          .prepared = loaded.prepared};
-  const std::uint8_t first_vehicle = scenario.vehicles.front().id.value;
-  options.after_step = [first_vehicle, interruption = Interruption()](
-                           const controller::Controller& one, const auto&, const auto&) mutable {
-    if (one.options().vehicle.value == first_vehicle) interruption.check();
+  options.after_step = [interruption = Interruption(), last = std::optional<StepIndex>()](
+                           const auto&, const auto&, const coordination::Report& report) mutable {
+    if (last == report.step) return;  // once per step, whichever vehicles are still there
+    last = report.step;
+    interruption.check();
   };
   closed_loop::Experiment experiment;
   Rows rows;
