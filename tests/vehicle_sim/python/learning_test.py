@@ -73,13 +73,16 @@ class LearningTest(unittest.TestCase):
         self.assertFalse(np.array_equal(truncated[-1].observations, begin))
 
     def test_the_final_observations_are_those_before_the_next_episode(self):
-        long, short = hlc.Environments(self.three, 2), hlc.Environments(self.three, 2, episode_steps=3)
+        circle = hlc.load_scenario("circle", cars=2)
+        long, short = (hlc.Environments(circle, 2, random_starts=False, episode_steps=steps) for steps in (9, 3))
         begin = short.reset(1)
         long.reset(1)
         np.testing.assert_array_equal(begin.final_observations, begin.observations)
-        fast = np.full((2, 3), int(np.argmax(self.three.trims[:, 0])))
+        result = begin
         for step in range(3):
-            result, goes_on = short.step(fast), long.step(fast)
+            actions = np.array([[pursuit(circle.trims, *car) for car in zip(*cars)]
+                                for cars in zip(result.observations, result.permitted)])
+            result, goes_on = short.step(actions), long.step(actions)
             self.assertFalse(goes_on.terminated.any())
             np.testing.assert_array_equal(result.final_observations, goes_on.observations)
             self.assertEqual(np.array_equal(result.observations, result.final_observations), step < 2)
@@ -165,15 +168,14 @@ class ParallelEnvTest(unittest.TestCase):
 
     def test_the_last_observations_of_an_episode_are_those_of_its_end(self):
         scenario = hlc.load_scenario("paper_three_cars")
-        short, long = hlc.ParallelEnv(scenario, episode_steps=2), hlc.ParallelEnv(scenario, episode_steps=9)
-        fast = dict.fromkeys(short.possible_agents, int(np.argmax(scenario.trims[:, 0])))
-        for one in (short, long):
-            one.reset(seed=3)
-            one.step(fast)
-        last, truncations = short.step(fast)[0::3]
+        env = hlc.ParallelEnv(scenario, episode_steps=1)
+        begin, infos = env.reset(seed=3)
+        actions = {a: pursuit(scenario.trims, begin[a], infos[a]["action_mask"].astype(bool)) for a in env.agents}
+        last, _, _, truncations, _ = env.step(actions)
         self.assertTrue(all(truncations.values()))
-        np.testing.assert_array_equal(last["red"], long.step(fast)[0]["red"])
-        self.assertGreater(last["red"][0], 0.0)
+        for agent, action in actions.items():
+            self.assertGreater(scenario.trims[action, 0], 0.0)
+            np.testing.assert_allclose(last[agent][:2], scenario.trims[action], atol=1e-6)
 
     def test_the_seed_repeats_an_episode(self):
         first = self.env.reset(seed=3)[0]

@@ -1,0 +1,312 @@
+#!/usr/bin/env python3
+"""Grades the answers to the four exercises of the course (README.md here): what was reached, what is asked, the points.
+
+An exercise has a few figures of runs. Each gives points, evenly from the worst value to the one that is asked; the goal
+is reached when all are. The figures are measured here, from what the package hlc returns: an answer's own are not read.
+"""
+import argparse
+import csv
+import importlib.util
+import json
+import math
+import pathlib
+import sys
+import tempfile
+import traceback
+from dataclasses import dataclass
+
+try:
+    import hlc
+    import numpy as np
+except ImportError as missing:
+    print(f"check.py: {missing}; must be installed or on PYTHONPATH (vehicle_sim/python/README.md)", file=sys.stderr)
+    sys.exit(2)
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+PERIOD_S = 0.02  # of a recorded drive
+
+
+class Invalid(Exception):
+    """One line: file, place, value, and what is allowed."""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """points, evenly from the value `worst` (none) to `asked` (all)."""
+    name: str
+    unit: str
+    reached: float
+    worst: float
+    asked: float
+    points: int
+
+    @property
+    def is_reached(self):
+        return self.reached >= self.asked if self.asked > self.worst else self.reached <= self.asked
+
+    @property
+    def earned(self):
+        """Whole points; not all of them before the goal is reached."""
+        if self.is_reached:
+            return self.points
+        share = (self.reached - self.worst) / (self.asked - self.worst)
+        return max(0, min(self.points - 1, math.floor(self.points * share))) if math.isfinite(share) else 0
+
+    def line(self):
+        at = "at least" if self.asked > self.worst else "at most"
+        reached = f"  {self.name:37} reached {self.reached:7.4g} {self.unit:4} "
+        return f"{reached}asked {at} {self.asked:.4g} {self.unit}".ljust(88) + f"{self.earned} of {self.points} points"
+
+
+def answer_in(file, name):
+    """What the Python file calls `name`. Importing it must not fail."""
+    if not file.is_file():
+        raise Invalid(f"{file}: is no file, must be an answer in Python")
+    spec = importlib.util.spec_from_file_location("answer", file)
+    if spec is None:
+        raise Invalid(f"{file}: must be a file in Python, with the ending .py")
+    module = importlib.util.module_from_spec(spec)
+    called(file, lambda: spec.loader.exec_module(module))
+    if not hasattr(module, name):
+        raise Invalid(f"{file}: {name} is missing, must be in the answer")
+    return getattr(module, name)
+
+
+def called(file, function, *arguments):
+    """What the answer's function returns. What it raises becomes one line, with the answer's line in it."""
+    try:
+        return function(*arguments)
+    except hlc.Error as refused:
+        raise Invalid(f"{file}: {refused}") from refused
+    except SyntaxError as error:
+        raise Invalid(f"{file}:{error.lineno}: {error.msg}, must be Python") from error
+    except Exception as error:
+        lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
+        raise Invalid(f"{file}:{lines[-1] if lines else 1}: raised {type(error).__name__}: {error}") from error
+
+
+# 1: a trim from a drive
+
+POSITION_NOISE_M, YAW_NOISE_RAD = 0.002, 0.010  # half widths, of the lab's cameras (vehicle_sim/plant/plant.hpp)
+LEAST_PIECES = 8
+WHEELBASE_M, REAR_AXLE_TO_CG_M = 0.150, 0.075  # of the automaton `lab`
+
+
+def pieces_by_trim(drive, begins, trims, step_s):
+    """Of each moving trim the pieces of the drive in which a step leads from it to itself, if there are enough.
+
+    drive   (n, 4): t [s], x [m], y [m], yaw [rad]
+    begins  (number of the step, which begins at this number times step_s; index of the trim there), in order
+    """
+    pieces = {}
+    for (step, trim), (following, then) in zip(begins, begins[1:]):
+        if following == step + 1 and then == trim and trims[trim][0] > 0.0:
+            times = drive[:, 0] / step_s - step
+            pieces.setdefault(trim, []).append(drive[(times > -1e-6) & (times < 1 + 1e-6)])
+    return {trim: found for trim, found in pieces.items() if len(found) >= LEAST_PIECES}
+
+
+def noisy(drive, seed):
+    """As the lab's cameras measure it; the yaw without jumps."""
+    most = np.array([0.0, POSITION_NOISE_M, POSITION_NOISE_M, YAW_NOISE_RAD])
+    measured = drive + np.random.default_rng(seed).uniform(-most, most, drive.shape)
+    measured[:, 3] = np.unwrap(measured[:, 3])
+    return measured
+
+
+def simulated_drive(seed):
+    scenario = hlc.load_scenario("lab_red_alone", steps=300)
+    run = hlc.drive(scenario, noise_seed=seed)
+    drive = np.column_stack([run.trajectory_columns[key] for key in ("t_s", "x_m", "y_m", "yaw_rad")])
+    begins = list(enumerate(int(trim) for trim in run.trims[:, 0]))
+    return pieces_by_trim(noisy(drive, seed), begins, scenario.trims, scenario.step_s), scenario.trims
+
+
+def rows_of(file):
+    try:
+        with file.open(encoding="utf-8", newline="") as text:
+            return list(csv.DictReader(text))
+    except OSError as error:
+        raise Invalid(f"{file}: cannot be read ({error.strerror}), must be of a run folder") from error
+
+
+def recorded_drive(folder):
+    """That of vehicle 1 in a run folder."""
+    found = sorted((folder / "configuration" / "scenarios").glob("*.yaml"))
+    if len(found) != 1:
+        raise Invalid(f"{folder}: must be a run folder, with one file in configuration/scenarios")
+    scenario = hlc.load_scenario(found[0])
+    try:
+        drive = np.array([[1e-9 * float(row["t_ns"]), float(row["x_m"]), float(row["y_m"]), float(row["yaw_rad"])]
+                          for row in rows_of(folder / "vehicle_1.csv")])
+        begins = [(int(row["step"]), int(row["planned_trim"]) - 1) for row in rows_of(folder / "reports.csv")
+                  if row["id"] == "1"]
+    except (KeyError, TypeError, ValueError) as error:
+        raise Invalid(f"{folder}: {error!r}, must be the rows of a recorded run") from error
+    pieces = pieces_by_trim(noisy(drive, 1), begins, scenario.trims, scenario.step_s)
+    if not pieces:
+        raise Invalid(f"{folder}: no trim is driven for {LEAST_PIECES} steps, must be one; more --steps")
+    return pieces, scenario.trims
+
+
+def grade_trim(answer, run):
+    identify = answer_in(answer, "identify")
+    drives = [recorded_drive(run)] if run else [simulated_drive(seed) for seed in (1, 2, 3)]
+    errors = []
+    for pieces, trims in drives:
+        for trim, found in sorted(pieces.items()):
+            returned = called(answer, identify, [one.copy() for one in found], WHEELBASE_M, REAR_AXLE_TO_CG_M)
+            errors.append(np.abs(numbers_in(answer, "identify", returned, 2) - trims[trim]))
+    speed_mps, steering_rad = np.max(errors, axis=0)
+    return [Figure("largest error of the speed", "m/s", speed_mps, 0.10, 0.02, 4),
+            Figure("largest error of the steering", "rad", steering_rad, 0.30, 0.02, 6)]
+
+
+def numbers_in(file, name, value, length):
+    try:
+        numbers = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        numbers = np.array([])
+    if numbers.shape != (length,) or not np.isfinite(numbers).all():
+        raise Invalid(f"{file}: {name} returned {value!r:.60}, must be {length} finite numbers")
+    return numbers
+
+
+# 2: a priority rule
+
+def grade_priority(answer, _):
+    """Six cars on the lab's roads, without right of way: what keeps them apart are their priorities alone."""
+    rule = answer_in(answer, "rule")
+    if not callable(rule):
+        raise Invalid(f"{answer}: rule = {rule!r:.60}, must be a function")
+    runs = []
+    for seed in range(1, 7):
+        crowd = hlc.load_scenario("lab_cars", cars=6, seed=seed, steps=200, values={"right_of_way": False})
+        runs.append(called(answer, lambda crowd=crowd: hlc.rollout(crowd, priorities=rule)))
+    return [Figure("cars that stand at the end", "", sum(standing_at_end(run) for run in runs), 12, 0, 3),
+            Figure("mean speed", "m/s", np.mean([run.planned_speed_mps.mean() for run in runs]), 0.60, 0.77, 2),
+            Figure("mean cost of a plan", "m^2", np.mean([run.cost_m2.mean() for run in runs]), 0.20, 0.10, 5)]
+
+
+def standing_at_end(run):
+    """Cars that stand in all of the last 5 s."""
+    return int((run.planned_speed_mps[-25:] == 0.0).all(axis=0).sum())
+
+
+# 3: an automaton with fewer trims
+
+def drive_with(trims, answer):
+    """A run of the red car with these trims and the rest of the automaton `paper`."""
+    text = (hlc.data_folder() / "automata" / "paper.yaml").read_text(encoding="utf-8")
+    rows = "".join(f"  - {{speed_mps: {speed!r}, steering_rad: {steering!r}}}\n" for speed, steering in trims)
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "trims.yaml"
+        file.write_text(text[:text.index("trims:")] + "trims:\n" + rows + "step_s: 0.2\nintervals: 20\ncriteria: [J2]\n"
+                        "subgraphs:\n  - {name: B, label: J2, trims: all}\n", encoding="utf-8")
+        red = called(answer, lambda: hlc.load_scenario("paper_red_alone", values={"automaton": str(file)}))
+        return hlc.drive(red)
+
+
+def lane_error_m(run):
+    """Mean distance of the driven positions from the centre line, a closed polygon."""
+    points_m, corners_m = run.driven[:, 0, :2], run.scenario.vehicles[0].route_m
+    edges_m = np.roll(corners_m, -1, axis=0) - corners_m
+    lengths_m2 = np.maximum((edges_m**2).sum(axis=1), 1e-12)
+    share = np.clip(((points_m[:, None] - corners_m) * edges_m).sum(axis=2) / lengths_m2, 0.0, 1.0)
+    return np.linalg.norm(points_m[:, None] - corners_m - share[..., None] * edges_m, axis=2).min(axis=1).mean()
+
+
+def grade_automaton(answer, _):
+    trims = answer_in(answer, "TRIMS")
+    if not isinstance(trims, (list, tuple)):
+        raise Invalid(f"{answer}: TRIMS = {trims!r:.60}, must be a list of (speed [m/s], steering [rad])")
+    trims = [tuple(numbers_in(answer, f"TRIMS[{i}]", one, 2).tolist()) for i, one in enumerate(trims)]
+    given = hlc.drive(hlc.load_scenario("paper_red_alone"))
+    own = drive_with(trims, answer)
+    return [Figure("trims", "", len(trims), len(given.scenario.trims), 6, 6),
+            Figure("mean distance from the lane", "mm", 1e3 * lane_error_m(own), 40.0, 1e3 * lane_error_m(given), 3),
+            Figure("mean speed", "m/s", own.planned_speed_mps.mean(), 0.40, 0.99 * given.planned_speed_mps.mean(), 1)]
+
+
+# 4: ten cars through a crossing
+
+KEYS = ("contouring_weight", "coordination", "coupling", "horizon_steps", "priorities", "reference_rule",
+        "right_of_way", "right_of_way_order", "rounds")
+CROSSING_M, HALF_CROSSING_M = np.array([2.25, 2.00]), 0.30  # middle of the lab's map
+STEPS = 600
+
+
+def passages(run):
+    """How often cars have entered the square in the middle of the map."""
+    inside = (np.abs(run.planned[..., :2] - CROSSING_M) < HALF_CROSSING_M).all(axis=2)
+    return int((~inside[:-1] & inside[1:]).sum())
+
+
+def longest_stand_s(run):
+    longest = standing = np.zeros(run.planned.shape[1])
+    for speeds_mps in run.planned_speed_mps:
+        standing = np.where(speeds_mps == 0.0, standing + 1, 0)
+        longest = np.maximum(longest, standing)
+    return run.scenario.step_s * longest.max()
+
+
+def grade_crossing(answer, _):
+    values = answer_in(answer, "VALUES")
+    if not isinstance(values, dict):
+        raise Invalid(f"{answer}: VALUES = {values!r:.60}, must be a dict of scenario keys")
+    for key in values:
+        if key not in KEYS:
+            raise Invalid(f"{answer}: VALUES: {key!r}, must be one of {', '.join(KEYS)}")
+    runs = []
+    for seed in (4, 5, 6):
+        ten = called(answer, lambda seed=seed: hlc.load_scenario("lab_cars", cars=10, seed=seed, steps=STEPS,
+                                                                 values=values))
+        runs.append(called(answer, lambda ten=ten: hlc.rollout(ten)))
+    minutes = len(runs) * STEPS * runs[0].scenario.step_s / 60
+    return [Figure("cars that stand at the end", "", sum(standing_at_end(run) for run in runs), 20, 0, 4),
+            Figure("cars through the crossing per minute", "", sum(map(passages, runs)) / minutes, 10, 52.5, 4),
+            Figure("longest stand", "s", max(map(longest_stand_s, runs)), 30, 8, 2)]
+
+
+EXERCISES = {"trim": grade_trim, "priority": grade_priority, "automaton": grade_automaton, "crossing": grade_crossing}
+
+
+def arguments():
+    parser = argparse.ArgumentParser(
+        allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Grades the answer to an exercise of the course: what was reached, what is asked, the points.",
+        epilog="Examples:\n  check.py trim\n  check.py priority --answer my_rule.py --json\n"
+               "Exit codes: 0 the goal is reached, 1 not yet, 2 invalid input")
+    parser.add_argument("exercise", choices=EXERCISES, metavar="EXERCISE", help="one of " + ", ".join(EXERCISES))
+    parser.add_argument("--answer", type=pathlib.Path, metavar="FILE",
+                        help="the answer, in Python (default: the file EXERCISE.py beside this program)")
+    parser.add_argument("--run", type=pathlib.Path, metavar="DIR",
+                        help="of `trim`: the drive of vehicle 1 in this run folder (default: three simulated drives)")
+    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+    given = parser.parse_args()
+    if given.run and given.exercise != "trim":
+        parser.error(f"--run with {given.exercise}, must be with trim")
+    return given
+
+
+def main():
+    given = arguments()
+    answer = (given.answer or FOLDER / f"{given.exercise}.py").absolute()
+    try:
+        figures = EXERCISES[given.exercise](answer, given.run)
+    except (Invalid, hlc.Error) as refused:
+        print(f"check.py: {refused}", file=sys.stderr)
+        return 2
+    is_reached = all(one.is_reached for one in figures)
+    earned, most = sum(one.earned for one in figures), sum(one.points for one in figures)
+    if given.json:
+        print(json.dumps({"exercise": given.exercise, "points": earned, "of": most, "is_reached": is_reached,
+                          "figures": {one.name: [float(one.reached), float(one.asked)] for one in figures}}))
+    else:
+        print(f"{given.exercise}: {answer}", *(one.line() for one in figures), sep="\n")
+        print(f"grade: {earned} of {most} points, " + ("the goal is reached" if is_reached else "not yet"))
+    return 0 if is_reached else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
