@@ -20,4 +20,5 @@ if __name__ == "__main__":
     import hlc
 
     run = hlc.rollout(hlc.load_scenario("lab_cars", cars=10, seed=5, steps=600, values=VALUES))
-    print(f"draw 5: {run.planned_speed_mps.mean():.3f} m/s, in the last 20 s {run.planned_speed_mps[-100:].mean():.3f} m/s")
+    speeds_mps = run.planned_speed_mps
+    print(f"draw 5: {speeds_mps.mean():.3f} m/s, in the last 20 s {speeds_mps[-100:].mean():.3f} m/s")

@@ -1,4 +1,4 @@
-"""A good answer to exercise 1: the yaw rate by least squares over all pieces, then the velocity in the turning frame."""
+"""A good answer to exercise 1: least squares for the yaw rate over all pieces, then for the velocity in each of them."""
 import math
 
 import numpy as np
@@ -11,9 +11,9 @@ def slope(pieces):
 
 
 def speed(piece, yaw_rate_radps):
-    """Of the circle with this yaw rate that fits the positions best: x' = a cos wt - b sin wt, y' = a sin wt + b cos wt.
+    """Of the circle with this yaw rate w that fits the positions best.
 
-    Its integrals are linear in a, b and the start, for w = 0, too.
+    x' = a cos wt - b sin wt, y' = a sin wt + b cos wt; the integrals are linear in a, b and the start, for w = 0, too.
     """
     t = piece[:, 0] - piece[0, 0]
     turned = yaw_rate_radps * t

@@ -1,0 +1,117 @@
+"""The course: its skeletons run and do not reach the goals, the answers here do, and what is wrong is named."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+COURSE = HERE.parent.parent / "launch_scripts" / "course"
+EXERCISES = ("trim", "priority", "automaton", "crossing")
+
+
+def ended(*command):
+    return subprocess.run([*map(str, command)], capture_output=True, text=True, check=False)
+
+
+def graded(exercise, *arguments):
+    return ended(sys.executable, COURSE / "check.py", exercise, *arguments)
+
+
+class CourseTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def written(self, text):
+        file = self.folder / "answer.py"
+        file.write_text(text, encoding="utf-8")
+        return file
+
+    def test_the_skeletons_run_by_themselves(self):
+        for exercise in EXERCISES:
+            with self.subTest(exercise=exercise):
+                done = ended(sys.executable, COURSE / f"{exercise}.py")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertTrue(done.stdout)
+
+    def test_the_skeletons_get_a_poor_grade(self):
+        for exercise in EXERCISES:
+            with self.subTest(exercise=exercise):
+                done = graded(exercise, "--json")
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertLess(json.loads(done.stdout)["points"], 5)
+
+    def test_the_answers_reach_the_goals(self):
+        for exercise in EXERCISES:
+            with self.subTest(exercise=exercise):
+                done = graded(exercise, "--answer", HERE / "answers" / f"{exercise}.py", "--json")
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertEqual(json.loads(done.stdout)["points"], 10)
+
+    def test_a_figure_that_is_missed_by_little_does_not_get_all_points(self):
+        done = graded("crossing", "--answer", self.written('VALUES = {"right_of_way": True}\n'), "--json")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        grade = json.loads(done.stdout)
+        reached, asked = grade["figures"]["cars through the crossing per minute"]
+        self.assertGreater(reached, 0.95 * asked)
+        self.assertLess(grade["points"], 10)
+
+    def test_a_car_that_stands_gets_no_points_for_its_few_trims(self):
+        done = graded("automaton", "--answer", self.written("TRIMS = [(0.0, 0.0)]\n"), "--json")
+        self.assertEqual((done.returncode, json.loads(done.stdout)["points"]), (1, 0))
+
+    def test_the_table_has_what_was_reached_and_what_is_asked(self):
+        done = graded("automaton")
+        self.assertRegex(done.stdout, r"(?m)^  trims +reached +12 +asked at most 6 +0 of 6 points$")
+        self.assertRegex(done.stdout, r"(?m)^grade: \d of 10 points, not yet$")
+
+    def test_a_recorded_drive_is_graded_as_a_simulated_one(self):
+        evaluate = Path(os.environ["HLC_BUILD"]) / "bin" / "evaluate"
+        done = ended(evaluate, "--scenario", "lab_red_alone", "--steps", 300, "--keep_runs", "--out",
+                     self.folder / "drive")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        run = self.folder / "drive" / "runs" / "0"
+        self.assertEqual(graded("trim", "--run", run).returncode, 1)
+        self.assertEqual(graded("trim", "--run", run, "--answer", HERE / "answers" / "trim.py").returncode, 0)
+
+    def test_what_is_wrong_with_an_answer_is_named_in_one_line(self):
+        cases = [("trim", "identify = 3\n", "raised TypeError: 'int'"),
+                 ("trim", "def identify(*_):\n    return 0.5\n", "identify returned 0.5, must be 2 finite numbers"),
+                 ("trim", "def identify(*_):\n    return 1 / 0\n", r"answer.py:2: raised ZeroDivisionError"),
+                 ("trim", "def identify(\n", r"answer.py:1: .*, must be Python"),
+                 ("trim", "pass\n", "identify is missing"),
+                 ("priority", "rule = 3\n", "rule = 3, must be a function"),
+                 ("priority", "def rule(situation):\n    return [99]\n", "the function returned .99., must be"),
+                 ("priority", "def rule(_):\n    return no_such_name\n", r"answer.py:2: raised NameError"),
+                 ("automaton", "TRIMS = 3\n", "TRIMS = 3, must be a list"),
+                 ("automaton", "TRIMS = [(0, 0), 3]\n", r"TRIMS: entry 2 = 3, must be 2 finite numbers"),
+                 ("automaton", "TRIMS = [(0.0, 0.0), (99.0, 0.0)]\n", r"TRIMS: trims\[2\].speed_mps = 99"),
+                 ("crossing", "raise SystemExit(0)\n", r"answer.py:1: raised SystemExit"),
+                 ("crossing", "VALUES = 3\n", "VALUES = 3, must be a dict"),
+                 ("crossing", "VALUES = {'seed': 3}\n", "VALUES: 'seed', must be one of contouring_weight, "),
+                 ("crossing", "VALUES = {'right_of_way': 3}\n", "right_of_way")]
+        for exercise, text, message in cases:
+            with self.subTest(exercise=exercise, text=text):
+                done = graded(exercise, "--answer", self.written(text))
+                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+                self.assertRegex(done.stderr, r"\A[^\n]*answer\.py[^\n]*\n\Z")
+                self.assertRegex(done.stderr, message)
+
+    def test_bad_arguments_are_named(self):
+        for arguments, message in ((("swim",), "swim"), (("trim", "--no_such_flag"), "no_such_flag"),
+                                   (("trim", "--answer", "no_file.py"), "no_file.py: is no file"),
+                                   (("trim", "--run", "no_folder"), "no_folder: must be a run folder"),
+                                   (("crossing", "--run", "."), "--run with crossing, must be with trim")):
+            with self.subTest(arguments=arguments):
+                done = graded(*arguments)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(message, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
