@@ -28,4 +28,5 @@ def identify(pieces, wheelbase_m, rear_axle_to_cg_m):
 if __name__ == "__main__":
     half_circle = np.linspace(0.0, math.pi, 50)
     example = np.column_stack([half_circle, np.sin(half_circle), 1 - np.cos(half_circle), half_circle])
-    print("a circle of 1 m radius at 1 m/s:", identify([example], 0.150, 0.075))
+    speed_mps, steering_rad = identify([example], 0.150, 0.075)
+    print(f"a circle of 1 m radius at 1 m/s: {speed_mps:.3f} m/s, {steering_rad:.3f} rad")
