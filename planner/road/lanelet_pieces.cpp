@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "planner/geometry/cross.hpp"
 
@@ -11,6 +13,7 @@ namespace {
 constexpr double kConvexShare = 1e-6;
 /// On the border, up to rounding.
 constexpr double kOnBorder_m = 1e-9;
+constexpr double kMostTurned_rad = 0.5;
 
 /// Of a polygon by its corners in order.
 template <class Corners>
@@ -31,6 +34,60 @@ std::vector<Point> corners_between(const Lanelet& lanelet, std::size_t first, st
   return corners_m;
 }
 
+/// Pieces `first` to `last` of a lanelet, which may have a convex part.
+struct Pieces {
+  std::size_t first{};  ///< index of a pair of points of the bounds
+  std::size_t last{};   ///< likewise, > first
+};
+
+/// As many pieces as `part_of` gives a part for, beginning with the middle one.
+template <class PartOf>
+ConvexPolygon largest_part(const Lanelet& lanelet, PartOf part_of) {
+  Pieces pieces{.first = (lanelet.left_m.size() - 1) / 2, .last = 0};
+  pieces.last = pieces.first + 1;
+  ConvexPolygon part = part_of(pieces);
+  const auto try_pieces = [&](const Pieces& larger) {
+    ConvexPolygon found = part_of(larger);
+    if (found.empty()) return false;
+    part = std::move(found);
+    pieces = larger;
+    return true;
+  };
+  for (bool grows = true; grows;) {
+    grows = pieces.last + 1 < lanelet.left_m.size() && try_pieces({pieces.first, pieces.last + 1});
+    grows |= pieces.first > 0 && try_pieces({pieces.first - 1, pieces.last});
+  }
+  return part;
+}
+
+/// The rectangle along the line through the middles of the first and the last pair of points that
+/// lies between all points of the bounds and between both pairs; empty where it is narrower than
+/// half the lane there, or the lane turns by more than kMostTurned_rad.
+ConvexPolygon rectangle_in(const Lanelet& lanelet, const Pieces& pieces) {
+  const Point begin_m = (lanelet.left_m[pieces.first] + lanelet.right_m[pieces.first]) / 2.0;
+  const Point end_m = (lanelet.left_m[pieces.last] + lanelet.right_m[pieces.last]) / 2.0;
+  const Point along = (end_m - begin_m).normalized();
+  double right_m = -std::numeric_limits<double>::infinity();
+  double left_m = std::numeric_limits<double>::infinity();
+  double width_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = pieces.first; i <= pieces.last; ++i) {
+    const Point across_m = lanelet.left_m[i] - lanelet.right_m[i];
+    if (std::abs(along.dot(across_m)) > std::sin(kMostTurned_rad) * across_m.norm()) return {};
+    right_m = std::max(right_m, cross(along, lanelet.right_m[i] - begin_m));
+    left_m = std::min(left_m, cross(along, lanelet.left_m[i] - begin_m));
+    width_m = std::min(width_m, across_m.norm());
+  }
+  const auto ahead_m = [&](const Point& point_m) { return along.dot(point_m - begin_m); };
+  const double from_m =
+      std::max(ahead_m(lanelet.left_m[pieces.first]), ahead_m(lanelet.right_m[pieces.first]));
+  const double to_m =
+      std::min(ahead_m(lanelet.left_m[pieces.last]), ahead_m(lanelet.right_m[pieces.last]));
+  if (to_m <= from_m || left_m - right_m < width_m / 2.0) return {};
+  const Pose frame{begin_m.x(), begin_m.y(), std::atan2(along.y(), along.x())};
+  return transformed(
+      convex_hull({{from_m, right_m}, {to_m, right_m}, {to_m, left_m}, {from_m, left_m}}), frame);
+}
+
 }  // namespace
 
 bool is_convex(const std::vector<Point>& corners_m) {
@@ -49,24 +106,15 @@ bool contains(const Lanelet& lanelet, const Point& point_m) {
 }
 
 ConvexPolygon convex_part_of(const Lanelet& lanelet, std::size_t most_corners) {
-  std::size_t first = (lanelet.left_m.size() - 1) / 2;
-  std::size_t last = first + 1;
-  const auto fits = [&](std::size_t from, std::size_t to) {
-    const std::vector<Point> corners_m = corners_between(lanelet, from, to);
-    return is_convex(corners_m) && convex_hull(corners_m).vertices_m.size() <= most_corners;
-  };
-  for (bool grows = true; grows;) {
-    grows = false;
-    if (last + 1 < lanelet.left_m.size() && fits(first, last + 1)) {
-      ++last;
-      grows = true;
-    }
-    if (first > 0 && fits(first - 1, last)) {
-      --first;
-      grows = true;
-    }
-  }
-  return convex_hull(corners_between(lanelet, first, last));
+  const ConvexPolygon whole_width = largest_part(lanelet, [&](const Pieces& pieces) {
+    const std::vector<Point> corners_m = corners_between(lanelet, pieces.first, pieces.last);
+    ConvexPolygon hull = convex_hull(corners_m);
+    const bool is_part = is_convex(corners_m) && hull.vertices_m.size() <= most_corners;
+    return is_part ? hull : ConvexPolygon{};
+  });
+  const ConvexPolygon rectangle =
+      largest_part(lanelet, [&](const Pieces& pieces) { return rectangle_in(lanelet, pieces); });
+  return area_m2(rectangle.vertices_m) > area_m2(whole_width.vertices_m) ? rectangle : whole_width;
 }
 
 }  // namespace hlc::road

@@ -183,6 +183,12 @@ class WaySearch {
         fail(fmt::format("position of the goal state has lanelet {}, must be one of the file", id));
       }
       regions.push_back(convex_part_of(lanelet->second, kMostGoalCorners));
+      if (regions.back().empty()) {
+        fail(
+            fmt::format("position of the goal state has lanelet {}, must be one whose bounds lie "
+                        "side by side",
+                        id));
+      }
     }
     for (const ConvexPolygon& region : regions) {
       if (region.vertices_m.size() > kMostGoalCorners) {
