@@ -1,39 +1,20 @@
 // Makes a scenario of a CommonRoad file's planning problems.
 
 #include <iostream>
-#include <stdexcept>
-#include <string>
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
-#include "planner/common/temporary_folder.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/scenario/commonroad_import.hpp"
-#include "planner/scenario/scenario.hpp"
 
 namespace {
 
 using hlc::scenario::CommonRoadImport;
 
-/// What is left to refuse: vehicles that overlap at the start, and the like.
-hlc::scenario::Scenario checked(const CommonRoadImport& import, const std::string& text) {
-  const hlc::TemporaryFolder folder;
-  const std::filesystem::path file = folder / "scenario.yaml";
-  hlc::write_file(file, text);
-  try {
-    return hlc::scenario::read_scenario({.file = file});
-  } catch (const std::exception& error) {
-    std::string fault = error.what();
-    if (fault.starts_with(file.string()))
-      fault = "as a scenario" + fault.substr(file.string().size());
-    throw std::invalid_argument(fmt::format("{}: {}", import.file.string(), fault));
-  }
-}
-
-void run(const CommonRoadImport& import, const hlc::apps::OutputFile& out) {
+void run(CommonRoadImport import, const hlc::apps::OutputFile& out) {
   hlc::apps::check_output_files({out}, {import.file, import.like});
-  const std::string text = hlc::scenario::scenario_from_commonroad(import);
-  const hlc::scenario::Scenario scenario = checked(import, text);
+  import.out = *out.file;
+  const auto [text, scenario] = hlc::scenario::scenario_from_commonroad(import);
   hlc::write_file(*out.file, text);
   for (const hlc::scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
     std::cout << fmt::format("vehicle {}: {}, {:.1f} m to its goal\n", vehicle.id.value,

@@ -162,12 +162,19 @@ class WaySearch {
                       goal.speed_mps->from, goal.speed_mps->to));
     }
     const std::vector<ConvexPolygon> regions = regions_of(goal);
+    double longest_m = 0.0;
     for (const LaneletId lane : lanes_) {
       if (!for_cars_.contains(lane)) continue;
-      if (auto way = way_from(lane, regions)) {
+      if (auto way = way_from(lane, regions, longest_m)) {
         check(*way, goal);
         return *way;
       }
+    }
+    if (longest_m > 0.0) {
+      fail(
+          fmt::format("position of the goal state: the way is in its region for {:.2f} m, must be "
+                      ">= {} m, the car's length",
+                      longest_m, footprint_.length_m));
     }
     fail(
         "position of the goal state, must be reached from the initial state, or a lane beside it, "
@@ -202,8 +209,10 @@ class WaySearch {
     return regions;
   }
 
+  /// @param longest_m  of the stretches in a region that are too short, and its value before
   [[nodiscard]] std::optional<WayToGoal> way_from(LaneletId lane,
-                                                  const std::vector<ConvexPolygon>& regions) const {
+                                                  const std::vector<ConvexPolygon>& regions,
+                                                  double& longest_m) const {
     Ways ways(map_, for_cars_, lane);
     const Start start = start_on(path_of(map_, lane), start_);
     while (const auto lanelets = ways.next()) {
@@ -217,7 +226,9 @@ class WaySearch {
                       .goal_m = region,
                       .stretch_in_goal = {}};
         lead_through(way);
-        return way;
+        const double in_goal_m = way.stretch_in_goal.to_s_m - way.stretch_in_goal.from_s_m;
+        if (in_goal_m >= footprint_.length_m) return way;
+        longest_m = std::max(longest_m, in_goal_m);
       }
     }
     return std::nullopt;
@@ -248,13 +259,6 @@ class WaySearch {
                         "must be for cars",
                         beside));
       }
-    }
-    const double in_goal_m = way.stretch_in_goal.to_s_m - way.stretch_in_goal.from_s_m;
-    if (in_goal_m < footprint_.length_m) {
-      fail(
-          fmt::format("the way to the goal is in its region for {:.2f} m, must be >= {} m, the "
-                      "car's length",
-                      in_goal_m, footprint_.length_m));
     }
     if (goal.heading_rad) check_headings(way, route.path, *goal.heading_rad);
   }

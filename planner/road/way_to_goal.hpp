@@ -30,12 +30,13 @@ inline constexpr std::size_t kMostGoalCorners = 32;
 /// It begins in the lanelet that the start lies in, the one that its heading fits best, or in a
 /// neighbour of the same direction, to which the vehicle then changes: the fewest lanes away. From
 /// there it is the shortest sequence of successors, all in `for_cars`, whose path enters one of the
-/// regions after the start. Of a lanelet the region is a convex part (lanelet_pieces.hpp).
+/// regions after the start, and first so for at least the vehicle's length: a vehicle whose
+/// footprint covers the middle of that stretch is in the region. Of a lanelet the region is a
+/// convex part (lanelet_pieces.hpp).
 ///
 /// The vehicle stands when it has arrived (goal.hpp), with its heading as the path's up to
 /// kFitsTurned_rad. Hence a goal state is honoured only if its speeds include 0 and its headings
-/// all those of the path in the region with that error, and if the path is in the region for at
-/// least the vehicle's length, so that a vehicle whose footprint covers its middle is in it.
+/// all those of the path in the region with that error.
 /// @throws std::runtime_error one line, "planning problem 7: fault and bound": a start beside all
 /// lanelets, against their direction or not on the map with its whole footprint; no goal state that
 /// has a way and can be honoured (the fault is that of the first)

@@ -18,7 +18,9 @@
 #include "planner/road/map_obstacles.hpp"
 #include "planner/road/planning_problem.hpp"
 #include "planner/road/way_to_goal.hpp"
-#include "planner/scenario/scenario.hpp"
+#include "planner/scenario/scenario_assembly.hpp"
+#include "planner/scenario/scenario_inputs.hpp"
+#include "planner/scenario/scenario_values.hpp"
 
 namespace hlc::scenario {
 namespace {
@@ -60,8 +62,13 @@ std::string taken_keys(const std::filesystem::path& like) {
   return text;
 }
 
-std::string quoted_path(const std::filesystem::path& path) {
-  return quoted_yaml(std::filesystem::absolute(path).lexically_normal().string());
+/// Relative to the scenario's folder if the file lies in it or beside it: they can move together.
+std::string quoted_path(const std::filesystem::path& file, const std::filesystem::path& scenario) {
+  const std::filesystem::path full = std::filesystem::absolute(file).lexically_normal();
+  const std::filesystem::path folder =
+      std::filesystem::absolute(scenario).lexically_normal().parent_path();
+  const std::filesystem::path near = full.lexically_relative(folder);
+  return quoted_yaml((near.string().starts_with("../..") ? full : near).string());
 }
 
 /// Text of a goal's corners.
@@ -105,8 +112,8 @@ class Importer {
         "# The planning problems of {}, driven by the vehicles of {}.\n"
         "name: {}\nsteps: {}\nmap: {}\nautomaton: {}\n",
         one_line(name_), one_line(import_.like.string()), quoted_yaml(map_.benchmark_id), steps(),
-        quoted_path(import_.file), quoted_path(like_.automaton_file));
-    if (like_.lab_file) text += fmt::format("lab: {}\n", quoted_path(*like_.lab_file));
+        quoted_path(import_.file, import_.out), quoted_path(like_.automaton_file, import_.out));
+    if (like_.lab_file) text += fmt::format("lab: {}\n", quoted_path(*like_.lab_file, import_.out));
     text += taken_keys(import_.like) + "\nroutes:\n";
     for (std::size_t i = 0; i < ways_.size(); ++i) text += route_text(i);
     text += "\nvehicles:\n";
@@ -157,7 +164,7 @@ class Importer {
   }
 
   [[nodiscard]] std::string name_of(std::size_t i) const {
-    return fmt::format("\"planning problem {}\"", problems_[i].id);
+    return fmt::format("\"problem {}\"", problems_[i].id);
   }
 
   [[nodiscard]] std::string route_text(std::size_t i) const {
@@ -190,8 +197,17 @@ class Importer {
 
 }  // namespace
 
-std::string scenario_from_commonroad(const CommonRoadImport& import) {
-  return Importer(import).text();
+ImportedScenario scenario_from_commonroad(const CommonRoadImport& import) {
+  ImportedScenario imported{.text = Importer(import).text(), .scenario = {}};
+  const ScenarioChoices choices{.file = import.out};
+  try {
+    const ScenarioValues values =
+        parse_scenario(Node::parse_yaml(imported.text, "as a scenario"), import.out);
+    imported.scenario = assemble_scenario(values, load_inputs(values, choices), choices);
+  } catch (const std::exception& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", import.file.string(), error.what()));
+  }
+  return imported;
 }
 
 }  // namespace hlc::scenario
