@@ -107,6 +107,9 @@ class Importer {
     }
   }
 
+  /// Of the vehicles.
+  [[nodiscard]] const automaton::Subgraph& subgraph() const { return *like_.subgraph; }
+
   [[nodiscard]] std::string text() const {
     std::string text = fmt::format(
         "# The planning problems of {}, driven by the vehicles of {}.\n"
@@ -198,12 +201,16 @@ class Importer {
 }  // namespace
 
 ImportedScenario scenario_from_commonroad(const CommonRoadImport& import) {
-  ImportedScenario imported{.text = Importer(import).text(), .scenario = {}};
+  const Importer importer(import);
+  ImportedScenario imported{.text = importer.text(), .scenario = {}};
   const ScenarioChoices choices{.file = import.out};
   try {
     const ScenarioValues values =
         parse_scenario(Node::parse_yaml(imported.text, "as a scenario"), import.out);
-    imported.scenario = assemble_scenario(values, load_inputs(values, choices), choices);
+    const automaton::Subgraph& subgraph = importer.subgraph();
+    imported.scenario = assemble_scenario(
+        values, load_inputs(values, choices, subgraph.shared_automaton(), {subgraph.spec()}),
+        choices);
   } catch (const std::exception& error) {
     throw std::invalid_argument(fmt::format("{}: {}", import.file.string(), error.what()));
   }
