@@ -34,7 +34,7 @@ constexpr std::array kNotTaken{"name",     "steps",  "automaton",    "lab",
                                "circle",   "seed",   "guests",       "obstacles",
                                "policies", "policy", "right_of_way", "right_of_way_order"};
 
-/// A value of a YAML file in one line. Its reader tells numbers from text by the text.
+/// A value of a YAML file in one line. Its reader takes a text of digits for a number.
 std::string flow_text(const Value& value) {
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < value.values.size(); ++i) {

@@ -40,7 +40,7 @@ CommonRoadSketch bend(double turned_rad) {
 /// 1 and 2 merge into 3, which leads to the east.
 CommonRoadSketch merge() {
   const Line ramp = arc({20.0, -12.0, 0.4}, 60.0, -0.4);
-  const Point end = ramp.back();
+  const Point& end = ramp.back();
   return CommonRoadSketch()
       .lane(1, straight({0.0, end.y()}, end))
       .lane(2, ramp)
@@ -205,6 +205,11 @@ std::vector<CommonRoadSample> commonroad_samples() {
   add_roads(samples);
   add_obstacles(samples);
   add_several(samples);
+  for (std::size_t i = 0; i < samples.size(); ++i) {  // every file has a benchmarkID of its own
+    std::string& xml = samples[i].xml;
+    const std::string id = CommonRoadSketch::kBenchmarkId;
+    xml.replace(xml.find(id), id.size(), "ZAM_Sketch-" + std::to_string(i + 1) + "_1_T-1");
+  }
   return samples;
 }
 

@@ -29,6 +29,7 @@ using Line = std::vector<Point>;
 class CommonRoadSketch {
  public:
   static constexpr double kLaneWidth_m = 3.6;
+  static constexpr char kBenchmarkId[] = "ZAM_Sketch-1_1_T-1";
 
   /// A lanelet along the line.
   CommonRoadSketch& lane(road::LaneletId id, const Line& middle_m, double width_m = kLaneWidth_m);
@@ -59,7 +60,7 @@ class CommonRoadSketch {
   [[nodiscard]] std::string xml() const;
 
  private:
-  road::LaneletMap map_{.benchmark_id = "ZAM_Sketch-1_1_T-1", .lanelets = {}};
+  road::LaneletMap map_{.benchmark_id = kBenchmarkId, .lanelets = {}};
   std::string elements_;
   std::string problems_;
   std::string in_goals_;

@@ -114,8 +114,8 @@ TEST(PlanningProblems, WhatIsNotRegardedIsRefusedByItsName) {
               HasSubstr("file.xml:2: <jerk> in <initialState> is not regarded, must be absent"));
   EXPECT_THAT(refusal(problem(kInitial, goal(kBox, kTime + exact("yawRate", "0")))),
               HasSubstr("<yawRate> in <goalState> is not regarded"));
-  EXPECT_THAT(refusal(problem(kInitial, goal(kBox) + "<wish/>")),
-              HasSubstr("<wish> in <planningProblem> is not regarded"));
+  EXPECT_THAT(refusal(problem(kInitial, goal(kBox) + "<hope/>")),
+              HasSubstr("<hope> in <planningProblem> is not regarded"));
   EXPECT_THAT(refusal(problem(kInitial, goal("<point><x>1</x><y>1</y></point>"))),
               HasSubstr("<position> has a <point>, must be a <rectangle>, <circle> or <polygon>"));
   EXPECT_THAT(refusal(problem(kInitial, goal(kBox, kTime + kTime))),
