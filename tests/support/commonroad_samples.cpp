@@ -28,11 +28,12 @@ CommonRoadSketch two_lanes() {
 /// 20 m to the east, a bend, and 30 m on.
 CommonRoadSketch bend(double turned_rad) {
   const Line curve = arc({20.0, 0.0, 0.0}, 18.0, turned_rad);
-  const Point on = 30.0 * Point(std::cos(turned_rad), std::sin(turned_rad));
+  const Point end_m = curve.back().position_m();
+  const Point on_m = transformed(Point(30.0, 0.0), curve.back());
   return CommonRoadSketch()
       .lane(1, straight({0.0, 0.0}, {20.0, 0.0}))
       .lane(2, curve)
-      .lane(3, straight(curve.back(), curve.back() + on))
+      .lane(3, straight(end_m, on_m))
       .joined(1, 2)
       .joined(2, 3);
 }
@@ -40,11 +41,11 @@ CommonRoadSketch bend(double turned_rad) {
 /// 1 and 2 merge into 3, which leads to the east.
 CommonRoadSketch merge() {
   const Line ramp = arc({20.0, -12.0, 0.4}, 60.0, -0.4);
-  const Point& end = ramp.back();
+  const Point end_m = ramp.back().position_m();
   return CommonRoadSketch()
-      .lane(1, straight({0.0, end.y()}, end))
+      .lane(1, straight({0.0, end_m.y()}, end_m))
       .lane(2, ramp)
-      .lane(3, straight(end, end + Point(60.0, 0.0)))
+      .lane(3, straight(end_m, end_m + Point(60.0, 0.0)))
       .joined(1, 3)
       .joined(2, 3);
 }

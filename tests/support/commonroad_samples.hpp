@@ -11,8 +11,8 @@
 /// CommonRoad files with planning problems for full-size cars, made by code.
 namespace hlc::test {
 
-/// Points of a lane's middle.
-using Line = std::vector<Point>;
+/// The middle of a lane: places with its direction there.
+using Line = std::vector<Pose>;
 
 /// A straight line with a point every few metres.
 [[nodiscard]] Line straight(const Point& from_m, const Point& to_m);
@@ -22,7 +22,7 @@ using Line = std::vector<Point>;
 /// What the goal state of a problem may hold, as XML.
 [[nodiscard]] std::string rectangle_at(const Pose& middle, const Footprint& size);
 [[nodiscard]] std::string circle_at(const Point& middle_m, double radius_m);
-[[nodiscard]] std::string polygon_at(const Line& corners_m);
+[[nodiscard]] std::string polygon_at(const std::vector<Point>& corners_m);
 [[nodiscard]] std::string lanelet_ref(road::LaneletId id);
 
 /// A CommonRoad 2020a file under construction.
@@ -32,7 +32,7 @@ class CommonRoadSketch {
   static constexpr char kBenchmarkId[] = "ZAM_Sketch-1_1_T-1";
 
   /// A lanelet along the line.
-  CommonRoadSketch& lane(road::LaneletId id, const Line& middle_m, double width_m = kLaneWidth_m);
+  CommonRoadSketch& lane(road::LaneletId id, const Line& middle, double width_m = kLaneWidth_m);
   /// The second one succeeds the first one.
   CommonRoadSketch& joined(road::LaneletId from, road::LaneletId to);
   /// One lies to the left of the other.

@@ -13,15 +13,11 @@ std::string point_text(const char* name, const Point& point_m) {
   return fmt::format("<{0}><x>{1:.9f}</x><y>{2:.9f}</y></{0}>", name, point_m.x(), point_m.y());
 }
 
-/// Left of the line by that much, at each of its points.
-Line shifted(const Line& line_m, double left_m) {
-  Line result;
-  for (std::size_t i = 0; i < line_m.size(); ++i) {
-    const Point along = line_m[std::min(i + 1, line_m.size() - 1)] - line_m[i == 0 ? 0 : i - 1];
-    const Point left = Point(-along.y(), along.x()).normalized();
-    result.emplace_back(line_m[i] + left_m * left);
-  }
-  return result;
+/// Left of the line by that much.
+std::vector<Point> shifted(const Line& line, double left_m) {
+  std::vector<Point> points_m;
+  for (const Pose& at : line) points_m.push_back(transformed(Point(0.0, left_m), at));
+  return points_m;
 }
 
 }  // namespace
@@ -29,10 +25,11 @@ Line shifted(const Line& line_m, double left_m) {
 Line straight(const Point& from_m, const Point& to_m) {
   const auto pieces =
       static_cast<std::size_t>(std::ceil((to_m - from_m).norm() / (2.0 * kSpacing_m)));
+  const Point along_m = (to_m - from_m) / static_cast<double>(pieces);
   Line line;
   for (std::size_t i = 0; i <= pieces; ++i) {
-    line.emplace_back(from_m +
-                      static_cast<double>(i) / static_cast<double>(pieces) * (to_m - from_m));
+    const Point at_m = from_m + static_cast<double>(i) * along_m;
+    line.push_back({at_m.x(), at_m.y(), std::atan2(along_m.y(), along_m.x())});
   }
   return line;
 }
@@ -45,8 +42,9 @@ Line arc(const Pose& from, double radius_m, double turned_rad) {
   for (std::size_t i = 0; i <= pieces; ++i) {
     const double angle_rad =
         std::abs(turned_rad) * static_cast<double>(i) / static_cast<double>(pieces);
-    const Point at(radius_m * std::sin(angle_rad), side * radius_m * (1.0 - std::cos(angle_rad)));
-    line.push_back(transformed(at, from));
+    line.push_back(
+        compose(from, {radius_m * std::sin(angle_rad),
+                       side * radius_m * (1.0 - std::cos(angle_rad)), side * angle_rad}));
   }
   return line;
 }
@@ -62,7 +60,7 @@ std::string circle_at(const Point& middle_m, double radius_m) {
                      point_text("center", middle_m));
 }
 
-std::string polygon_at(const Line& corners_m) {
+std::string polygon_at(const std::vector<Point>& corners_m) {
   std::string corners;
   for (const Point& corner : corners_m) corners += point_text("point", corner);
   return "<polygon>" + corners + "</polygon>";
@@ -70,10 +68,10 @@ std::string polygon_at(const Line& corners_m) {
 
 std::string lanelet_ref(road::LaneletId id) { return fmt::format("<lanelet ref=\"{}\"/>", id); }
 
-CommonRoadSketch& CommonRoadSketch::lane(road::LaneletId id, const Line& middle_m, double width_m) {
+CommonRoadSketch& CommonRoadSketch::lane(road::LaneletId id, const Line& middle, double width_m) {
   map_.lanelets[id] = {.id = id,
-                       .left_m = shifted(middle_m, width_m / 2.0),
-                       .right_m = shifted(middle_m, -width_m / 2.0),
+                       .left_m = shifted(middle, width_m / 2.0),
+                       .right_m = shifted(middle, -width_m / 2.0),
                        .predecessors = {},
                        .successors = {},
                        .adjacent_left = {},

@@ -33,7 +33,7 @@ CommonRoadSketch network() {
   return CommonRoadSketch()
       .lane(1, test::straight({0.0, 0.0}, {40.0, 0.0}))
       .lane(2, test::straight({40.0, 0.0}, {60.0, 0.0}))
-      .lane(3, {{60.0, 0.0}, {80.0, beyond_m}, {100.0, 0.0}})
+      .lane(3, {{60.0, 0.0, 0.0}, {80.0, beyond_m, 0.0}, {100.0, 0.0, 0.0}})
       .lane(4, test::straight({60.0, 0.0}, {80.0, 0.0}))
       .lane(5, test::straight({80.0, 0.0}, {100.0, 0.0}))
       .lane(6, test::straight({100.0, 0.0}, {140.0, 0.0}))

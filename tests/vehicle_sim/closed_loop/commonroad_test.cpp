@@ -75,13 +75,13 @@ TEST(RandomCommonRoad, ProblemsOnABendAreSolved) {
     const double turned_rad = side * draw(0.3, 2.0);
     const test::Line curve =
         test::arc(compose(origin, {20.0, 0.0, 0.0}), draw(15.0, 50.0), turned_rad);
-    const Pose end{curve.back().x(), curve.back().y(), origin.heading_rad + turned_rad};
+    const Pose end = curve.back();
     const Pose start = compose(origin, {draw(5.0, 15.0), draw(-0.5, 0.5), draw(-0.1, 0.1)});
     const Pose goal = compose(end, {draw(12.0, 30.0), 0.0, 0.0});
     test::CommonRoadSketch sketch;
-    sketch.lane(1, test::straight(origin.position_m(), curve.front()))
+    sketch.lane(1, test::straight(origin.position_m(), curve.front().position_m()))
         .lane(2, curve)
-        .lane(3, test::straight(curve.back(), transformed(Point(45.0, 0.0), end)))
+        .lane(3, test::straight(end.position_m(), transformed(Point(45.0, 0.0), end)))
         .joined(1, 2)
         .joined(2, 3)
         .problem(7, start, {test::rectangle_at(goal, {draw(8.0, 15.0), 3.0})});
