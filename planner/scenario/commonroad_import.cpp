@@ -45,9 +45,11 @@ std::string flow_text(const Value& value) {
   if (value.kind == Value::Kind::kMap) return fmt::format("{{{}}}", fmt::join(parts, ", "));
   if (value.kind == Value::Kind::kList) return fmt::format("[{}]", fmt::join(parts, ", "));
   if (value.kind == Value::Kind::kNothing) return "null";
-  const bool is_plain = !value.text.empty() && std::ranges::all_of(value.text, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_';
-  });
+  constexpr std::string_view kPlain = "._+-";
+  const bool is_plain =
+      !value.text.empty() && value.text != "-" && std::ranges::all_of(value.text, [&](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || kPlain.find(c) != kPlain.npos;
+      });
   return is_plain ? value.text : quoted_yaml(value.text);
 }
 
