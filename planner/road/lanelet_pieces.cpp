@@ -66,7 +66,9 @@ ConvexPolygon largest_part(const Lanelet& lanelet, PartOf part_of) {
 ConvexPolygon rectangle_in(const Lanelet& lanelet, const Pieces& pieces) {
   const Point begin_m = (lanelet.left_m[pieces.first] + lanelet.right_m[pieces.first]) / 2.0;
   const Point end_m = (lanelet.left_m[pieces.last] + lanelet.right_m[pieces.last]) / 2.0;
-  const Point along = (end_m - begin_m).normalized();
+  const double length_m = (end_m - begin_m).norm();
+  if (!(length_m > kOnBorder_m) || !std::isfinite(length_m)) return {};
+  const Point along = (end_m - begin_m) / length_m;
   double right_m = -std::numeric_limits<double>::infinity();
   double left_m = std::numeric_limits<double>::infinity();
   double width_m = std::numeric_limits<double>::infinity();

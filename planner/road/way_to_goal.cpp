@@ -305,7 +305,7 @@ class WaySearch {
 
 WayToGoal way_to_goal(const LaneletMap& map, const std::set<LaneletId>& for_cars,
                       const PlanningProblem& problem, const Footprint& footprint) {
-  const auto named = [&problem](const std::runtime_error& error) {
+  const auto named = [&problem](const std::exception& error) {
     return std::runtime_error(fmt::format("planning problem {}: {}", problem.id, error.what()));
   };
   std::optional<std::runtime_error> first_fault;
@@ -314,7 +314,7 @@ WayToGoal way_to_goal(const LaneletMap& map, const std::set<LaneletId>& for_cars
       WayToGoal way = WaySearch(map, for_cars, problem.start, footprint).to(problem.goals[i]);
       way.goal_state = i;
       return way;
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
       if (!first_fault) first_fault = named(error);
     }
   }
