@@ -105,7 +105,8 @@ TEST(WayToGoal, LeadsRoundACircuitToAPlaceBehindTheStart) {
       .lane(2, test::arc({0.0, 40.0, std::numbers::pi}, 20.0, std::numbers::pi))
       .joined(1, 2)
       .joined(2, 1);
-  const WayToGoal way = way_of(sketch.problem(7, {19.9, 18.0, 1.47}, {box_at(0.0, 0.0)}));
+  const WayToGoal way = way_of(
+      sketch.problem(7, {19.9, 18.0, 1.47}, {test::rectangle_at({9.6, 2.45, 0.5}, {9.0, 3.0})}));
   EXPECT_THAT(way.lanelets, ElementsAre(1, 2, 1));
 }
 
