@@ -16,6 +16,10 @@ Installs what is missing, builds, drives three cars for 30 s, prints the result 
 programs it builds nothing, and runs/ is in the working directory.
   --scenario FILE         scenario file (YAML), or the name of one of launch_scripts/scenarios
                           (default paper_three_cars; also paper_red_alone, circle, lab_cars)
+  --commonroad FILE       drives the planning problems of this CommonRoad file (2020a, 2018b) instead, with the vehicle of
+                          --scenario (default then: passenger_cars_in_town); refuses what cannot be honoured
+  --from_standstill BOOL  with --commonroad; true: cars that move in their initial states begin standing there;
+                          false (default): these are refused
   --profile NAME          default: every plan optimal, safe under loss of messages between controllers
                           2022: the rules that produced the paper's numbers
   --engine NAME           search engine: branch_and_bound (default profile) or best_first (profile 2022); the same called
@@ -60,6 +64,7 @@ programs it builds nothing, and runs/ is in the working directory.
 Examples:
   run_lab.sh --scenario lab_cars --cars 10
   run_lab.sh --view --simulated_time=false --out runs/my_run
+  run_lab.sh --commonroad problem.xml --from_standstill true
 Exit codes: 0 success, 1 setup or build failed, or a record or --dump_problems is incomplete, 2 invalid input, 3 startup timeout,
             4 a process died during the run, 5 a vehicle left its plan or touched another one,
             6 all steps driven, but a vehicle was stuck at the end: it had waited for others for 20 s, 130 interrupted
@@ -70,7 +75,7 @@ fail() { echo "run_lab.sh: $1" >&2; exit 2; }
 # shellcheck source=SCRIPTDIR/domain_locks.sh
 source "$here/domain_locks.sh"
 
-scenario=paper_three_cars profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
+scenario="" commonroad="" from_standstill="" profile=default engine="" priorities="" dump_problems="" subgraph="" policy="" map="" cars="" seed=""
 routes="" steps=""
 simulated_time=true noise_seed="" gains_scale="" stamps="" on_death=stop transport=loopback dds_domain="" out="" preset=release
 bin="" build=true share="" page=true messages=true view=false security=${HLC_SECURITY-}
@@ -95,7 +100,7 @@ while (($#)); do
   fi
   [[ $name != dump_problems || -n $value ]] || fail "--dump_problems = , must be a new or an empty folder"
   case "$name" in
-    scenario | profile | engine | priorities | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
+    scenario | commonroad | from_standstill | profile | engine | priorities | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
       simulated_time | noise_seed | gains_scale | stamps | on_death | transport | dds_domain | out | preset | bin | \
       share | page | messages | security | startup_timeout_s | log_level) printf -v "$name" '%s' "$value" ;;
     *) fail "unknown flag --$name (see --help)" ;;
@@ -135,6 +140,15 @@ case "$preset" in
   release | debug | asan | tsan) ;;
   *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
 esac
+[[ -z $from_standstill || ($from_standstill =~ ^(true|false)$ && -n $commonroad) ]] ||
+  fail "--from_standstill = $from_standstill, must be one of true, false, with --commonroad"
+[[ -z $commonroad || -z $map$routes ]] || fail "--commonroad with --map or --routes, must be without"
+[[ -z $commonroad || -f $commonroad ]] || fail "--commonroad = $commonroad is no file, must be a CommonRoad file"
+[[ -z $commonroad || $commonroad == /* ]] || commonroad=$PWD/$commonroad
+if [[ -z $scenario ]]; then
+  scenario=paper_three_cars
+  [[ -z $commonroad ]] || scenario=passenger_cars_in_town
+fi
 [[ ! -e $scenario || $scenario == /* ]] || scenario=$PWD/$scenario
 [[ -e $scenario ]] || scenario=$here/scenarios/${scenario%.yaml}.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$here/scenarios" && echo *.yaml)"
@@ -149,6 +163,22 @@ if $build; then
 fi
 [[ -n $bin ]] || bin=$root/build/$preset/bin
 [[ -x $bin/lab_control ]] || fail "no programs in $bin; leave out --no_build and --bin"
+
+imported=""
+# shellcheck disable=SC2317 # called by the traps
+remove_imported() { [[ -z $imported ]] || rm -rf -- "$imported"; }
+if [[ -n $commonroad ]]; then # with its map beside it, so that the run folder's copies name each other
+  imported=$(mktemp -d) || fail "no temporary folder for --commonroad, must be one that can be created"
+  trap remove_imported EXIT
+  name=$(basename "$commonroad" .xml)
+  mkdir "$imported/maps" "$imported/scenarios"
+  cp -- "$commonroad" "$imported/maps/$name.xml" ||
+    fail "--commonroad = $commonroad: cannot be read, must be a CommonRoad file"
+  message=$("$bin/import_commonroad" --commonroad "$imported/maps/$name.xml" --like "$scenario" \
+    --from_standstill "${from_standstill:-false}" --out "$imported/scenarios/$name.yaml" 2>&1) ||
+    { echo "${message//"$imported/maps/$name.xml"/"$commonroad"}" >&2; exit 2; }
+  scenario=$imported/scenarios/$name.yaml
+fi
 
 choices=(--scenario "$scenario" --profile "$profile")
 [[ -z $engine ]] || choices+=(--engine "$engine")
@@ -265,6 +295,7 @@ quoted() { # for YAML
 cat >"$out/configuration/flags.yaml" <<TEXT
 # Flags of run_lab.sh; null: not given. Car N measures with the noise of seed noise_seed + N.
 scenario: $(quoted "$(realpath "$scenario")")
+commonroad: $(quoted "$commonroad")
 profile: $(quoted "$profile")
 engine: $(quoted "$engine")
 subgraph: $(quoted "$subgraph")
@@ -321,7 +352,7 @@ end_view() {
   view_process=""
 }
 # shellcheck disable=SC2317 # called by the traps
-end_all() { end_children; end_view; }
+end_all() { end_children; end_view; remove_imported; }
 # The table of the steps that were recorded.
 summarize() {
   local page_flag=()

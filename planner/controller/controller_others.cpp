@@ -251,7 +251,8 @@ void Controller::note_arrival(coordination::Report& report) {
   const coordination::Plan& plan = plan_in_force();
   const Pose pose = plan.pose_at(report.step);
   tracker_.note_place(pose, stays_at(plan, pose, report.step, std::max(report.step, plan.end())),
-                      report.step, subgraph().automaton().vehicle.footprint);
+                      report.step, options_.horizon_steps,
+                      subgraph().automaton().vehicle.footprint);
   report.arrived_since = tracker_.arrived_since();
 }
 

@@ -49,8 +49,13 @@ road::Placement RouteTracker::place(const Pose& pose, const Footprint& footprint
   return placement;
 }
 
-void RouteTracker::note_place(const Pose& pose, bool stands, StepIndex step,
-                              const Footprint& footprint) {
+void RouteTracker::note_place(const Pose& pose, bool stays, StepIndex step,
+                              std::size_t patience_steps, const Footprint& footprint) {
+  if (noted_ != pose) {
+    noted_ = pose;
+    noted_since_ = step;
+  }
+  const bool stands = stays || step.value >= noted_since_.value + patience_steps;
   const bool is_there =
       s_m_ && road::is_at_goal(route().path, route().goal, *s_m_, pose, footprint);
   if (!is_there) {

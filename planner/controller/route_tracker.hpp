@@ -43,9 +43,11 @@ class RouteTracker {
   /// Advances to the position. @param reach_m  as for `project`
   void advance(const Point& position_m, double reach_m) { s_m_ = project(position_m, reach_m); }
 
-  /// Where the vehicle is in a step, and whether it stands there: it arrives where it stands, and
-  /// has arrived until it leaves the goal.
-  void note_place(const Pose& pose, bool stands, StepIndex step, const Footprint& footprint);
+  /// Where the vehicle is in a step, and whether its plan stays there. It arrives where its plan
+  /// stays, or where it has been for `patience_steps`: the plan of each step may move at its end,
+  /// and the next one put that off again. It has arrived until it leaves the goal.
+  void note_place(const Pose& pose, bool stays, StepIndex step, std::size_t patience_steps,
+                  const Footprint& footprint);
 
   /// Arc length of a position within the vehicle's reach.
   /// @param reach_m  how far it may get
@@ -56,6 +58,8 @@ class RouteTracker {
   std::size_t route_{};
   std::optional<road::Placement> placement_;
   std::optional<double> s_m_;
+  std::optional<Pose> noted_;  ///< the last place
+  StepIndex noted_since_;
   std::optional<StepIndex> arrived_since_;
 };
 

@@ -11,11 +11,15 @@
 #include "planner/maneuver_design/automaton_configuration.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/road/lanelet_map.hpp"
+#include "planner/road/lanelets_for_cars.hpp"
 #include "planner/road/map_obstacles.hpp"
+#include "planner/road/planning_problem.hpp"
+#include "planner/road/way_to_goal.hpp"
 #include "planner/scenario/lab_file.hpp"
 #include "planner/scenario/scenario_values.hpp"
 #include "tests/fuzz/in_file.hpp"
 #include "tests/fuzz/target.hpp"
+#include "tests/support/commonroad_samples.hpp"
 #include "tests/support/folders.hpp"
 
 namespace hlc::fuzz {
@@ -80,6 +84,20 @@ std::vector<Target> planner_file_targets() {
          static_cast<void>(road::parse_lanelet_map(bytes, "input"));
        },
        [] { return shipped("maps", ".xml"); }},
+      {"planning_problems",
+       [](std::string_view bytes) {
+         const std::string xml(bytes);
+         const auto for_cars = road::parse_lanelets_for_cars(xml, "input");
+         const road::LaneletMap map = road::parse_lanelet_map(xml, "input");
+         for (const auto& problem : road::parse_planning_problems(xml, "input")) {
+           static_cast<void>(road::way_to_goal(map, for_cars, problem, {4.5, 1.6}));
+         }
+       },
+       [] {
+         std::vector<std::string> texts;
+         for (const auto& sample : test::commonroad_samples()) texts.push_back(sample.xml);
+         return texts;
+       }},
       {"scenario",
        [](std::string_view bytes) {
          const Node node = Node::parse_yaml(std::string(bytes), "input");

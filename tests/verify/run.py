@@ -46,6 +46,8 @@ class Configuration:
     routes: dict[str, dict[str, list[int]]]  # route, map (benchmarkID), lanelets
     route_of: dict[int, str]  # vehicle id; empty: no lanes
     samples_per_step: int  # 10 ms samples in a control step
+    name_of: dict[int, str]  # vehicle id, in scenarios that name their vehicles
+    map_file: Path | None  # None: no lanes
 
 
 @dataclass(frozen=True)
@@ -105,6 +107,8 @@ def read_configuration(folder: Path, time_step_s: float) -> Configuration:
             routes={route["name"]: route["lanelets"] for route in scenario.get("routes", [])},
             route_of={v["id"]: v["route"] for v in scenario.get("vehicles", [])},
             samples_per_step=round(automaton["step_s"] / time_step_s),
+            name_of={v["id"]: v.get("name", "") for v in scenario.get("vehicles", [])},
+            map_file=scenarios[0].parent / scenario["map"] if "map" in scenario else None,
         )
     except (KeyError, TypeError) as error:
         raise BadInput(f"{automaton_file}: {error} is missing, must be an automaton") from error

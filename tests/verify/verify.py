@@ -10,6 +10,7 @@ from pathlib import Path
 from collisions import check_collisions, check_size
 from controls import run_controls
 from dynamics import check_dynamics
+from goals import check_goals
 from lanes import check_lanes
 from record import check_driving, check_whole
 from run import BadInput, Finding, read_run
@@ -53,6 +54,7 @@ def check_file(xml: Path, folder: Path) -> tuple[list[Finding], list[str]]:
         ("dynamics", check_dynamics),
         ("collisions", check_collisions),
         ("lanes", check_lanes),
+        ("goals", check_goals),
     ):
         try:
             found, text = check(run)

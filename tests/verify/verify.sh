@@ -7,10 +7,11 @@ root=$(cd "$here/../.." && pwd)
 usage() {
   cat <<'TEXT'
 usage: verify.sh [--bin DIR] [--environment DIR] [--xml FILE] [RUN_FOLDER...]
-Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes. Without a run folder: drives
-paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, and paper_three_cars
-with real processes over DDS, checks all of them, and the negative controls of two; checks the shipped scenarios against their schema; reads the recorded messages of the
-last one with the package mcap and, where npm is installed, decodes them by the types in the file as Foxglove does, and
+Checks runs with CommonRoad's packages: file, dynamics, collisions, lanes, goals. Without a run folder: drives
+paper_three_cars and circle with the subgraphs A, B, C and D and both profiles in one process, the planning
+problems of sample CommonRoad files, and paper_three_cars with real processes over DDS, checks all of them, and the
+negative controls of two; checks the shipped scenarios against their schema; reads the recorded messages of the last
+one with the package mcap and, where npm is installed, decodes them by the types in the file as Foxglove does, and
 watches a run under way with its client.
   --bin DIR           the programs (default build/release/bin)
   --environment DIR   folder of the virtual environment, created if missing (default build/release/verify_environment)
@@ -96,6 +97,14 @@ drive "evaluate" timeout 120 "$bin/evaluate" --scenario paper_three_cars,circle 
   --profile default,2022 --keep_runs --scenario_folder "$root/launch_scripts/scenarios" --out "$out/campaign"
 drive "evaluate" timeout 120 "$bin/evaluate" --scenario obstacle_field --keep_runs \
   --scenario_folder "$root/launch_scripts/scenarios" --out "$out/obstacles"
+# Planning problems of CommonRoad files.
+problems=()
+for name in $("$bin/write_commonroad_samples" "$out"); do
+  drive "import_commonroad" "$bin/import_commonroad" --commonroad "$out/$name.xml" --like passenger_cars_in_town \
+    --out "$out/$name.yaml"
+  problems+=("$out/$name.yaml")
+done
+drive "evaluate" timeout 120 "$bin/evaluate" --scenario "$(IFS=,; echo "${problems[*]}")" --keep_runs --out "$out/problems"
 drive "run_lab.sh" timeout 120 "$root/launch_scripts/run_lab.sh" --no_build --bin "$bin" --out "$out/processes"
 timeout 60 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/scenario_schema.py" || exit 1
 timeout 60 env PYTHONDONTWRITEBYTECODE=1 "$environment/bin/python" "$here/messages.py" "$out/processes" || exit 1
@@ -110,5 +119,6 @@ if command -v npm >/dev/null; then
 fi
 for ((i = 0; i < 16; i++)); do runs+=("$out/campaign/runs/$i"); done
 runs+=("$out/obstacles/runs/0")
+for ((i = 0; i < ${#problems[@]}; i++)); do runs+=("$out/problems/runs/$i"); done
 # Run 1 is paper_three_cars with subgraph B and the default profile; run 4, A with that of 2022, re-anchors plans.
 "${verify[@]}" --controls "$out/campaign/runs/1" --controls_reanchored "$out/campaign/runs/4" "${runs[@]}" "$out/processes"
