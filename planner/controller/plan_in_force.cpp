@@ -134,7 +134,8 @@ bool PlanInForce::stands_at_end() const {
 void PlanInForce::anchor_at(const Pose& pose, StepIndex now) {
   ReplacedPlans replaced = std::move(replaced_);
   const double deviation_m = deviation_m_;
-  *this = PlanInForce(automaton_, *standstill_, rules_, pose, now);
+  constexpr std::size_t kAnyHorizon = 0;  // matters to replaced plans only
+  *this = PlanInForce(automaton_, *standstill_, rules_, kAnyHorizon, pose, now);
   replaced_ = std::move(replaced);
   deviation_m_ = deviation_m;
 }
