@@ -29,38 +29,33 @@ std::vector<Taken> leave_a_way_on(const ConflictMap& map, std::span<const Holder
                                   std::span<const double> ahead_m, std::span<const Blocked> blocked,
                                   const GrantOrder& order) {
   std::vector<coordination::LaneClaim> before;
+  std::vector<coordination::LaneClaim> ends;
   std::vector<std::size_t> entering;
-  std::vector<Taken> taken;
   for (std::size_t who = 0; who < holders.size(); ++who) {
     before.push_back(holders[who].claim);
     const std::optional<double> stretch_m = before_stretch_m(map, before.back(), ahead_m[who]);
-    taken.push_back({.ahead_m = stretch_m.value_or(ahead_m[who])});
+    ends.push_back(before.back());
+    ends.back().ahead_m = stretch_m.value_or(ahead_m[who]);
     if (stretch_m) entering.push_back(who);
   }
-  if (entering.empty()) return taken;
-  std::vector<coordination::LaneClaim> claims = before;
-  for (std::size_t who = 0; who < claims.size(); ++who) claims[who].ahead_m = taken[who].ahead_m;
-  const auto stuck = [&] { return Queues::stuck({map, claims, before, blocked}); };
-  std::optional<std::size_t> num_stuck;  // as it is, once that matters
+  std::vector<Taken> taken(holders.size());
+  std::optional<std::size_t> num_stuck;  // with `ends`, once that matters
   sort_by(order, holders, entering);
   for (const std::size_t who : entering) {
-    claims[who].ahead_m = ahead_m[who];
-    const std::vector<std::size_t> stuck_then = stuck();
-    if (!stuck_then.empty() && !num_stuck) {
-      claims[who].ahead_m = taken[who].ahead_m;
-      num_stuck = stuck().size();
-      claims[who].ahead_m = ahead_m[who];
-    }
-    if (stuck_then.empty() || stuck_then.size() <= *num_stuck) {
-      taken[who].ahead_m = ahead_m[who];
-      num_stuck = stuck_then.size();
+    std::vector<coordination::LaneClaim> more = ends;
+    more[who].ahead_m = ahead_m[who];
+    const std::vector<std::size_t> stuck = Queues(map, more, before, blocked).stuck();
+    if (!stuck.empty() && !num_stuck) num_stuck = Queues(map, ends, before, blocked).stuck().size();
+    if (stuck.empty() || stuck.size() <= *num_stuck) {
+      ends = std::move(more);
+      num_stuck = stuck.size();
       continue;
     }
-    claims[who].ahead_m = taken[who].ahead_m;
-    for (const std::size_t one : stuck_then) {
+    for (const std::size_t one : stuck) {
       if (one != who) taken[who].declined_for.push_back(holders[one].vehicle);
     }
   }
+  for (std::size_t who = 0; who < ends.size(); ++who) taken[who].ahead_m = ends[who].ahead_m;
   return taken;
 }
 

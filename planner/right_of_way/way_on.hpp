@@ -28,12 +28,13 @@ struct Taken {
 /// close up along their lanes; then one passes its next stretch, to the first cell behind it, if
 /// all these cells are free and no circle is closed by it: vehicles each of which has another one
 /// of them in its way, so that none of them ever moves again. Stuck are those that have not passed
-/// the stretch that was their next one as the step began when no further turn is possible.
+/// the three stretches that were their next ones as the step began when no further turn is
+/// possible; all are if there is a circle.
 ///
 /// No circle is closed by anybody who has received all. And not all decline: where a turn is
 /// possible, the vehicle whose turn is the first one does not, since the other turns are possible
-/// after it as before. That nobody is stuck forever does not follow: the order of the turns is one
-/// of many, and they end behind one stretch each.
+/// after it as before. That nobody is stuck forever does not follow: only some of all orders of
+/// turns are tried, and turns end behind three stretches each.
 ///
 /// It takes from what was granted, so no two vehicles hold overlapping cells whatever each
 /// controller has received. Others do not take what was declined before the next step, and come
