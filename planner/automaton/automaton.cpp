@@ -41,10 +41,9 @@ double yaw_minus_heading_rad(double steering_rad, const vehicle::VehicleParamete
 bool is_at_steering_limit(const Trim& trim, const vehicle::VehicleParameters& vehicle,
                           const vehicle::IdentifiedVehicle& identified) {
   constexpr double kUsable = 0.80;
-  const double steering =
-      vehicle::steady_steering(vehicle::curvature_per_m(trim.steering_rad, vehicle), identified) -
-      identified.steering_offset;
-  return std::abs(steering) > kUsable;
+  const double servo =
+      vehicle::steady_servo(vehicle::curvature_per_m(trim.steering_rad, vehicle), identified);
+  return std::abs(servo) > kUsable;
 }
 
 vehicle::State state_at(const Maneuver& maneuver, double time_s,

@@ -36,8 +36,7 @@ double yaw_offset_rad(double steering_rad, Yaw yaw, const vehicle::VehicleParame
 Yaw driven_yaw(double steering_rad, const vehicle::VehicleParameters& vehicle,
                const vehicle::IdentifiedVehicle& identified) {
   const double s =
-      vehicle::steady_steering(vehicle::curvature_per_m(steering_rad, vehicle), identified) -
-      identified.steering_offset;
+      vehicle::steady_servo(vehicle::curvature_per_m(steering_rad, vehicle), identified);
   return s > 1.0 ? Yaw::kFullLeft : s < -1.0 ? Yaw::kFullRight : Yaw::kDriven;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "planner/geometry/footprint.hpp"
+#include "planner/right_of_way/way_on.hpp"
 #include "planner/road/reference_path.hpp"
 
 namespace hlc::controller {
@@ -54,11 +55,13 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
   claim_ = {.route = route,
             .place_m = place_m,
             .ahead_m = std::max({gives_back ? 0.0 : held_m, plans_m, 0.0}),
-            .waiting_steps = stands && !gives_back ? claim_.waiting_steps + 1 : 0};
+            .waiting_steps =
+                stands && !gives_back && declined_for_.empty() ? claim_.waiting_steps + 1 : 0};
   now_ = now;
   has_place_ = true;
   granted_.clear();
   holders_.clear();
+  declined_for_.clear();
   is_limited_ = false;
 }
 
@@ -84,23 +87,46 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
   }
   std::ranges::sort(granted_, {}, &right_of_way::Holder::vehicle);  // as every other vehicle does
   const double look_ahead_m = map_->scale() * kLookAhead_m;
-  const std::vector<double>& ahead_m =
-      shared.granted(*map_, granted_, blocked, look_ahead_m, *order_);
-  for (std::size_t i = 0; i < granted_.size(); ++i) granted_[i].claim.ahead_m = ahead_m[i];
+  const std::vector<right_of_way::Holder> before = granted_;
+  const std::vector<right_of_way::Taken>& taken =
+      shared.taken(*map_, before, blocked, look_ahead_m, *order_);
+  for (std::size_t i = 0; i < granted_.size(); ++i) {
+    granted_[i].claim.ahead_m = taken[i].ahead_m;
+    if (granted_[i].vehicle == own) declined_for_ = taken[i].declined_for;
+  }
   std::optional<std::vector<right_of_way::Holder>> cautious;
   if (!assumed.empty()) {
     cautious = right_of_way::cautious_grant(*map_, received, assumed, blocked, look_ahead_m, own);
   }
+  const bool is_cautious = cautious.has_value();
   holders_ = cautious ? *std::move(cautious) : granted_;
   own_place_ = static_cast<std::size_t>(
       std::ranges::find(holders_, own, &right_of_way::Holder::vehicle) - holders_.begin());
+  if (is_cautious) decline(own, before, blocked);
   claim_.ahead_m = holders_[own_place_].claim.ahead_m;
   is_limited_ = claim_.ahead_m + map_->cell_m(claim_.route) <= look_ahead_m;
   blocked_.assign(blocked.begin(), blocked.end());
 }
 
+/// What leave_a_way_on takes from this vehicle if nobody else takes anything.
+void Authority::decline(VehicleId own, const std::vector<right_of_way::Holder>& before,
+                        std::span<const right_of_way::Blocked> blocked) {
+  double& own_ahead_m = holders_[own_place_].claim.ahead_m;
+  std::vector<double> ahead_m;
+  std::size_t who = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i].vehicle == own) who = i;
+    ahead_m.push_back(before[i].vehicle == own ? own_ahead_m : before[i].claim.ahead_m);
+  }
+  right_of_way::Taken taken =
+      right_of_way::leave_a_way_on(*map_, before, ahead_m, blocked, *order_)[who];
+  own_ahead_m = taken.ahead_m;
+  declined_for_ = std::move(taken.declined_for);
+}
+
 std::vector<VehicleId> Authority::withheld_by() const {
   if (!is_limited_) return {};
+  if (!declined_for_.empty()) return declined_for_;
   return right_of_way::withheld_by(*map_, holders_, blocked_, own_place_);
 }
 

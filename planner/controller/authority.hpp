@@ -23,6 +23,9 @@ namespace hlc::controller {
 /// not know of is in its way, perhaps a vehicle that waits for the same road and stands some
 /// millimetres too near to be passed.
 ///
+/// A vehicle that declines road, so that others get on (way_on.hpp), begins to wait again, too: the
+/// others come first.
+///
 /// The end of the authority is a limit of planning, on top of everything that keeps plans apart:
 /// whatever the others hold or announce, no plan meets another's. It is never nearer than the end
 /// of the plan in force. A car that stands askew in a bend may reach into the bar behind the end;
@@ -66,8 +69,8 @@ class Authority {
   /// `receiver`: grants are the same in all controllers that received the same.
   void resume(const coordination::LaneClaim& claim, VehicleId vehicle, const Authority& receiver);
 
-  /// Vehicles that hold or block what would be granted next, if the end limits planning. @pre
-  /// extend
+  /// If the end limits planning: vehicles that hold or block what would be granted next, or that
+  /// would not get on if this one took it. @pre extend
   [[nodiscard]] std::vector<VehicleId> withheld_by() const;
 
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.
@@ -76,6 +79,9 @@ class Authority {
   [[nodiscard]] ConvexPolygon bar_m(const RouteTracker& tracker, const Footprint& footprint) const;
 
  private:
+  void decline(VehicleId own, const std::vector<right_of_way::Holder>& before,
+               std::span<const right_of_way::Blocked> blocked);
+
   /// Another vehicle, as last received.
   struct Known {
     coordination::LaneClaim claim;
@@ -91,6 +97,7 @@ class Authority {
   std::vector<right_of_way::Holder> granted_;
   std::vector<right_of_way::Holder> holders_;
   std::vector<right_of_way::Blocked> blocked_;
+  std::vector<VehicleId> declined_for_;  ///< way_on.hpp, in this step
   std::size_t own_place_{};
   bool is_limited_{};  ///< the end limits planning
   std::map<VehicleId, Known> known_;

@@ -76,7 +76,7 @@ coordination::Report Controller::stand_by(const Observation& observation) {
   if (const coordination::MeasuredVehicle* own = observation.measured(options_.vehicle)) {
     const automaton::UniversalAutomaton& automaton = subgraph().automaton();
     in_force_.emplace(subgraph().shared_automaton(), self_loop(automaton, subgraph().standstill()),
-                      options_.deviation, own->pose, observation.step);
+                      options_.deviation, options_.horizon_steps, own->pose, observation.step);
     tracker_.select_route(
         automaton::pose_of_measured(own->pose, 0.0, automaton.vehicle, automaton.identified),
         automaton.vehicle.footprint);

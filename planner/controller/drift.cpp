@@ -65,9 +65,8 @@ Driven driven(const Driven& at, const Point& from, const Point& to,
 double first_steering(const vehicle::State& planned,
                       const automaton::UniversalAutomaton& automaton) {
   if (!automaton.identified.steering_rate_per_s) return 0.0;
-  const double curvature = vehicle::curvature_per_m(planned.steering_rad, automaton.vehicle);
-  return vehicle::steady_steering(curvature, automaton.identified) -
-         automaton.identified.steering_offset;
+  return vehicle::steady_servo(vehicle::curvature_per_m(planned.steering_rad, automaton.vehicle),
+                               automaton.identified);
 }
 
 }  // namespace

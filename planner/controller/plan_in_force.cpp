@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner/automaton/deviation.hpp"
+#include "planner/controller/command_time.hpp"
 #include "planner/coordination/plan_by_index.hpp"
 #include "planner/vehicle/lab_limits.hpp"
 
@@ -38,7 +39,7 @@ void cover(const coordination::OccupiedAreas& more, coordination::OccupiedAreas&
 
 PlanInForce::PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
                          const automaton::Maneuver& standstill, DeviationRules rules,
-                         const Pose& measured, StepIndex step)
+                         std::size_t horizon_steps, const Pose& measured, StepIndex step)
     : automaton_(std::move(automaton)),
       standstill_(&standstill),
       rules_(rules),
@@ -47,6 +48,7 @@ PlanInForce::PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> au
             automaton::pose_of_measured(measured, 0.0, automaton_->vehicle, automaton_->identified),
             standstill, automaton_),
       announced_(plan_.areas_from(step)),
+      replaced_(drivable_steps(horizon_steps, automaton_->step_s)),
       seen_{.step = step, .time_s = 0.0, .pose = measured} {}
 
 PlanInForce::PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
@@ -89,7 +91,7 @@ DeviationCheck PlanInForce::check_deviation(const coordination::MeasuredVehicle*
     note_outside(seen_.pose, seen_speed_mps_, now);
     return {.deviation_m = 0.0, .is_disturbed = true, .is_lost = true};
   }
-  replaced_.forget(now, rules_.drivable_steps);
+  replaced_.forget(now);
   seen_speed_mps_ = own->speed_mps;
   const SeenAt seen = seen_at(*own, now, automaton_->step_s);
   seen_ = {.step = now, .time_s = 0.0, .pose = own->pose};
@@ -132,7 +134,8 @@ bool PlanInForce::stands_at_end() const {
 void PlanInForce::anchor_at(const Pose& pose, StepIndex now) {
   ReplacedPlans replaced = std::move(replaced_);
   const double deviation_m = deviation_m_;
-  *this = PlanInForce(automaton_, *standstill_, rules_, pose, now);
+  constexpr std::size_t kAnyHorizon = 0;  // matters to replaced plans only
+  *this = PlanInForce(automaton_, *standstill_, rules_, kAnyHorizon, pose, now);
   replaced_ = std::move(replaced);
   deviation_m_ = deviation_m;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 
@@ -22,9 +23,6 @@ struct DeviationRules {
   /// A predicted drift (drift.hpp) up to this needs no larger areas; the rest of the margin is for
   /// the error of the prediction.
   double tolerated_drift_share{0.5};
-  /// Steps after which a replaced plan is no longer driven (command_time.hpp); the default is that
-  /// of 8 steps of 0.2 s.
-  std::uint64_t drivable_steps{10};
 };
 
 /// The deviation of a vehicle from its plan, and the consequences.
@@ -110,9 +108,10 @@ class PlanInForce {
  public:
   /// Standing at the pose measured at t(step). `standstill` is the equilibrium trim's self-loop;
   /// the automaton owns it.
+  /// @param horizon_steps  of each plan: how long a vehicle may drive a replaced one depends on it
   PlanInForce(std::shared_ptr<const automaton::UniversalAutomaton> automaton,
-              const automaton::Maneuver& standstill, DeviationRules rules, const Pose& measured,
-              StepIndex step);
+              const automaton::Maneuver& standstill, DeviationRules rules,
+              std::size_t horizon_steps, const Pose& measured, StepIndex step);
 
   /// As another controller knows it, for planning in step `now` only: it announces nothing and must
   /// not be checked or replaced.
@@ -184,7 +183,7 @@ class PlanInForce {
   std::vector<bool> is_at_limit_;  ///< of each trim, is_at_steering_limit
   coordination::Plan plan_;
   coordination::OccupiedAreas announced_;  ///< announced areas of the plan, and one step before
-  ReplacedPlans replaced_;
+  ReplacedPlans replaced_{0};              ///< those of a replica: none
   bool is_lost_{};
 
   // of the last `check_deviation`

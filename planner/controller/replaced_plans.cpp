@@ -1,12 +1,11 @@
 #include "planner/controller/replaced_plans.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "planner/geometry/footprint.hpp"
-#include "planner/vehicle/identified_motion.hpp"
+#include "planner/vehicle/delayed_inputs.hpp"
 
 namespace hlc::controller {
 namespace {
@@ -29,23 +28,20 @@ std::vector<Pose> stopping(const Pose& pose, double speed_mps, double steering_r
                            const automaton::UniversalAutomaton& automaton) {
   if (!automaton.identified.steering_rate_per_s) return {braked(pose, speed_mps)};
   const vehicle::IdentifiedVehicle& identified = automaton.identified;
-  const double delta = vehicle::steady_steering(
-      vehicle::curvature_per_m(steering_rad, automaton.vehicle), identified);
-  std::array<vehicle::ActuatorInput, vehicle::kInputDelayTicks> under_way;  // oldest first
-  under_way.fill({.throttle = 0.0, .steering = delta - identified.steering_offset});
+  vehicle::DelayedInputs inputs(
+      {.steering = vehicle::steady_servo(vehicle::curvature_per_m(steering_rad, automaton.vehicle),
+                                         identified)});
   vehicle::VehicleMotion motion{.pose = pose, .speed_mps = speed_mps};
   const auto stands = [&] {
     return std::abs(motion.speed_mps) < kStands_mps &&
-           std::ranges::all_of(under_way, [](const vehicle::ActuatorInput& input) {
+           std::ranges::all_of(inputs.under_way(), [](const vehicle::ActuatorInput& input) {
              return std::abs(input.throttle) < kStands_mps;
            });
   };
   std::vector<Pose> poses;
   for (int tick = 0; tick < kMostTicks && !(tick > 0 && stands()); ++tick) {
-    const vehicle::ActuatorInput acting = under_way.front();
-    const vehicle::ActuatorInput last = under_way.back();
-    std::shift_left(under_way.begin(), under_way.end(), 1);
-    under_way.back() = vehicle::actuated(vehicle::stop_input(motion.speed_mps), last, identified);
+    const vehicle::ActuatorInput acting =
+        inputs.give(vehicle::stop_input(motion.speed_mps), identified);
     motion = vehicle::stepped(motion, acting, identified);
     poses.push_back(motion.pose);
   }
@@ -90,9 +86,9 @@ void ReplacedPlans::add(coordination::Plan plan, coordination::OccupiedAreas ann
   formers_.push_back(std::make_shared<const Former>(std::move(plan), std::move(announced), in));
 }
 
-void ReplacedPlans::forget(StepIndex now, std::uint64_t drivable_steps) {
+void ReplacedPlans::forget(StepIndex now) {
   std::erase_if(formers_, [&](const std::shared_ptr<const Former>& former) {
-    return now.value >= former->replaced_in.value + drivable_steps;
+    return now.value >= former->replaced_in.value + drivable_steps_;
   });
 }
 

@@ -40,12 +40,15 @@ class ReplacedPlans {
     StepIndex replaced_in;
   };
 
+  /// @param drivable_steps  after the one in which a plan is replaced (command_time.hpp); 0 where
+  ///                        none is
+  explicit ReplacedPlans(std::uint64_t drivable_steps) : drivable_steps_(drivable_steps) {}
+
   /// @pre `in` does not decrease
   void add(coordination::Plan plan, coordination::OccupiedAreas announced, StepIndex in);
   /// The list of step `now` shows the vehicle: plans that it can no longer drive are removed. A
   /// vehicle that is not seen may stand anywhere on any of them.
-  /// @param drivable_steps  of the controller (command_time.hpp)
-  void forget(StepIndex now, std::uint64_t drivable_steps);
+  void forget(StepIndex now);
   /// In step `now` it is unknown which of the plans until then the vehicle drives.
   void doubt(StepIndex now) { doubted_until_ = now; }
 
@@ -53,6 +56,7 @@ class ReplacedPlans {
   [[nodiscard]] std::vector<const Former*> doubtful() const;
 
  private:
+  std::uint64_t drivable_steps_;
   std::vector<std::shared_ptr<const Former>> formers_;
   std::optional<StepIndex> doubted_until_;
 };

@@ -35,20 +35,22 @@ const SharedStep::Coupling& SharedStep::coupling(std::vector<const coordination:
   return *coupling_;
 }
 
-const std::vector<double>& SharedStep::granted(const right_of_way::ConflictMap& map,
-                                               const std::vector<right_of_way::Holder>& holders,
-                                               std::span<const right_of_way::Blocked> blocked,
-                                               double look_ahead_m,
-                                               const right_of_way::GrantOrder& order) {
-  const bool is_known = granted_ && granted_->map == &map && granted_->holders == holders &&
-                        std::ranges::equal(granted_->blocked, blocked) &&
-                        granted_->look_ahead_m == look_ahead_m && granted_->order == &order;
+const std::vector<right_of_way::Taken>& SharedStep::taken(
+    const right_of_way::ConflictMap& map, const std::vector<right_of_way::Holder>& holders,
+    std::span<const right_of_way::Blocked> blocked, double look_ahead_m,
+    const right_of_way::GrantOrder& order) {
+  const bool is_known = taken_ && taken_->map == &map && taken_->holders == holders &&
+                        std::ranges::equal(taken_->blocked, blocked) &&
+                        taken_->look_ahead_m == look_ahead_m && taken_->order == &order;
   if (!is_known) {
-    granted_.emplace(
+    taken_.emplace(
         &map, holders, std::vector<right_of_way::Blocked>(blocked.begin(), blocked.end()),
-        look_ahead_m, &order, right_of_way::grant(map, holders, blocked, look_ahead_m, order));
+        look_ahead_m, &order,
+        right_of_way::leave_a_way_on(
+            map, holders, right_of_way::grant(map, holders, blocked, look_ahead_m, order), blocked,
+            order));
   }
-  return granted_->ahead_m;
+  return taken_->taken;
 }
 
 }  // namespace hlc::controller

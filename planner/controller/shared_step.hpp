@@ -8,7 +8,7 @@
 
 #include "planner/coordination/coupling.hpp"
 #include "planner/coordination/priority.hpp"
-#include "planner/right_of_way/grant.hpp"
+#include "planner/right_of_way/way_on.hpp"
 
 namespace hlc::controller {
 
@@ -28,28 +28,28 @@ class SharedStep {
                                          const coordination::PriorityRule& priorities,
                                          const coordination::CouplingRule& rule);
 
-  /// right_of_way::grant. @param holders  sorted by vehicle
-  [[nodiscard]] const std::vector<double>& granted(const right_of_way::ConflictMap& map,
-                                                   const std::vector<right_of_way::Holder>& holders,
-                                                   std::span<const right_of_way::Blocked> blocked,
-                                                   double look_ahead_m,
-                                                   const right_of_way::GrantOrder& order);
+  /// What each vehicle takes (right_of_way::leave_a_way_on) of what is granted to it
+  /// (right_of_way::grant). @param holders  sorted by vehicle
+  [[nodiscard]] const std::vector<right_of_way::Taken>& taken(
+      const right_of_way::ConflictMap& map, const std::vector<right_of_way::Holder>& holders,
+      std::span<const right_of_way::Blocked> blocked, double look_ahead_m,
+      const right_of_way::GrantOrder& order);
 
  private:
-  struct Granted {
+  struct AllTaken {
     const right_of_way::ConflictMap* map;
     std::vector<right_of_way::Holder> holders;
     std::vector<right_of_way::Blocked> blocked;
     double look_ahead_m;
     const right_of_way::GrantOrder* order;
-    std::vector<double> ahead_m;
+    std::vector<right_of_way::Taken> taken;
   };
 
   std::vector<const coordination::Traffic*> traffic_;  ///< of `coupling_`
   coordination::PriorityRule priorities_;
   const coordination::CouplingRule* rule_{};
   std::optional<Coupling> coupling_;
-  std::optional<Granted> granted_;
+  std::optional<AllTaken> taken_;
 };
 
 }  // namespace hlc::controller

@@ -36,10 +36,11 @@ struct PlannedManeuver {
 /// Which part of a route shared with others a vehicle holds: from its place to the end of its
 /// authority, beyond which no plan of it leads (right_of_way/grant.hpp).
 struct LaneClaim {
-  std::uint32_t route{};          ///< index in the run's conflict map
-  double place_m{};               ///< arc length of the planned place at t(k), in [0, length)
-  double ahead_m{};               ///< from there to the end, >= 0
-  std::uint32_t waiting_steps{};  ///< control steps for which the vehicle has stood
+  std::uint32_t route{};  ///< index in the run's conflict map
+  double place_m{};       ///< arc length of the planned place at t(k), in [0, length)
+  double ahead_m{};       ///< from there to the end, >= 0
+  std::uint32_t
+      waiting_steps{};  ///< control steps for which the vehicle has stood and declined nothing
   friend bool operator==(const LaneClaim&, const LaneClaim&) = default;
 };
 

@@ -173,11 +173,7 @@ std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holder
                           const GrantOrder& order) {
   std::vector<std::size_t> turns(holders.size());
   std::iota(turns.begin(), turns.end(), std::size_t{0});
-  std::ranges::sort(turns, [&](std::size_t a, std::size_t b) {
-    if (order.is_before(holders[a], holders[b])) return true;
-    if (order.is_before(holders[b], holders[a])) return false;
-    return holders[a].vehicle < holders[b].vehicle;
-  });
+  sort_by(order, holders, turns);
   Grants grants(map, holders, blocked);
   for (const std::size_t who : turns) grants.extend(who, look_ahead_m);
   return grants.ahead_m();

@@ -32,8 +32,8 @@ struct Blocked {
 /// received all of them must not take what is granted here (cautious_grant).
 ///
 /// What this is for: no authority ends in a cell that a vehicle of another lane needs. A vehicle
-/// that is held up on its way may still stop in one. That no state without a way on is reached is
-/// measured, not proven: vehicles may still wait for each other around a circle of full lanes.
+/// that is held up on its way may still stop in one. Around a circle of full lanes vehicles would
+/// wait for each other: not all of what is granted is taken (way_on.hpp).
 [[nodiscard]] std::vector<double> grant(const ConflictMap& map, std::span<const Holder> holders,
                                         std::span<const Blocked> blocked, double look_ahead_m,
                                         const GrantOrder& order = kLongestWait);

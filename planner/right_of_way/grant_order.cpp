@@ -22,6 +22,15 @@ bool has_waited_longer(const Holder& a, const Holder& b) {
 constinit const GrantOrder kLongestWait{.name = "longest_wait", .is_before = &has_waited_longer};
 constinit const GrantOrder kNearestEnd{.name = "nearest_end", .is_before = &is_nearer_to_its_end};
 
+void sort_by(const GrantOrder& order, std::span<const Holder> holders,
+             std::vector<std::size_t>& indices) {
+  std::ranges::sort(indices, [&](std::size_t a, std::size_t b) {
+    if (order.is_before(holders[a], holders[b])) return true;
+    if (order.is_before(holders[b], holders[a])) return false;
+    return holders[a].vehicle < holders[b].vehicle;
+  });
+}
+
 std::span<const GrantOrder* const> grant_orders() {
   static constexpr std::array kAll{&kLongestWait, &kNearestEnd};
   return kAll;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,10 @@ struct GrantOrder {
   /// Vehicles that are alike in it follow by their ids.
   bool (*is_before)(const Holder& a, const Holder& b);
 };
+
+/// Sorts indices of `holders` by the order. @pre each is one of them
+void sort_by(const GrantOrder& order, std::span<const Holder> holders,
+             std::vector<std::size_t>& indices);
 
 /// Who has waited longest, then who is nearest to the end of its authority.
 extern const GrantOrder kLongestWait;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "planner/common/node.hpp"
-#include "planner/controller/command_time.hpp"
 #include "planner/scenario/priority_values.hpp"
 #include "planner/scenario/reference_speeds.hpp"
 #include "planner/scenario/scenario_assembly.hpp"
@@ -20,8 +19,6 @@ namespace {
 controller::DeviationRules deviation_rules(const Scenario& scenario) {
   controller::DeviationRules rules;
   if (scenario.lab) rules.tracking_error_max_m = scenario.lab->tracking_error_max_m;
-  rules.drivable_steps =
-      controller::drivable_steps(scenario.horizon_steps, scenario.subgraph->automaton().step_s);
   return rules;
 }
 

@@ -14,6 +14,10 @@ double steady_steering(double curvature_per_m, const IdentifiedVehicle& vehicle)
   return 2.0 * c / (b + std::sqrt(std::max(0.0, discriminant)));
 }
 
+double steady_servo(double curvature_per_m, const IdentifiedVehicle& vehicle) {
+  return steady_steering(curvature_per_m, vehicle) - vehicle.steering_offset;
+}
+
 double steady_slip_rad(double curvature_per_m, const IdentifiedVehicle& vehicle) {
   const double delta = std::clamp(steady_steering(curvature_per_m, vehicle),
                                   vehicle.steering_offset - 1.0, vehicle.steering_offset + 1.0);

@@ -48,6 +48,9 @@ struct IdentifiedVehicle {
 /// @pre p4 > 0, p2 <= 0 (then every curvature has a solution)
 [[nodiscard]] double steady_steering(double curvature_per_m, const IdentifiedVehicle& vehicle);
 
+/// s = delta - p9 of `steady_steering`: the input that the servo has on such a path.
+[[nodiscard]] double steady_servo(double curvature_per_m, const IdentifiedVehicle& vehicle);
+
 /// p3 delta + p10 [rad]: angle from the vehicle's yaw to its course on a path of this curvature. On
 /// a path that is sharper than the vehicle can drive, delta is that of full steering, |s| = 1.
 [[nodiscard]] double steady_slip_rad(double curvature_per_m, const IdentifiedVehicle& vehicle);

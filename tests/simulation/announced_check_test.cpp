@@ -29,7 +29,7 @@ class Announced : public testing::Test {
                     step * kAnnouncedPeriod);
   }
 
-  AnnouncedCheck check_{kFootprint, kAnnouncedPeriod};
+  AnnouncedCheck check_{kFootprint, 8, kAnnouncedPeriod};
   Violations violations_;
 };
 
@@ -79,9 +79,9 @@ TEST_F(Announced, APlanThatWasPredictedAndDidNotComeIntoForceIsNotDriven) {
 TEST_F(Announced, AVehicleStandsWhenItsLastPlanHasRunOut) {
   publish(0, 0.0);
   agree(0, 0.0);
-  drive(0.0, kAnnouncedPeriod, AnnouncedCheck::kPlanLasts, 0.5);
+  drive(0.0, kAnnouncedPeriod, check_.plan_lasts(), 0.5);
   EXPECT_TRUE(violations_.empty());
-  drive(0.0, AnnouncedCheck::kPlanLasts, 20 * kAnnouncedPeriod, 0.5);
+  drive(0.0, check_.plan_lasts(), 20 * kAnnouncedPeriod, 0.5);
   ASSERT_EQ(violations_.size(), 1U);
   EXPECT_EQ(violations_.front().check, "stands");
 }
@@ -102,7 +102,7 @@ TEST_F(Announced, WhatIsForgivenIsNotJudgedUntilItsControllerHasSeenTheVehicle) 
 TEST_F(Announced, WhatIsForgivenMustStandAllTheSame) {
   publish(0, 0.0);
   check_.exempt(kCar, 0);
-  drive(0.5, 0, AnnouncedCheck::kPlanLasts + kAnnouncedPeriod, 0.5);
+  drive(0.5, 0, check_.plan_lasts() + kAnnouncedPeriod, 0.5);
   ASSERT_EQ(violations_.size(), 1U);
   EXPECT_EQ(violations_.front().check, "stands");
 }

@@ -95,7 +95,7 @@ TEST_F(Driven, AVehicleIsOutOfReachOnceItsControllerIsMistakenAboutIt) {
   EXPECT_TRUE(violations_.empty());
   receive(kFirst, 11);
   drive(kFirst, 13, 11);
-  EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 13 * kDrivenPeriod + 2 * DrivenPlans::kAfterwards));
+  EXPECT_FALSE(driven_.is_out_of_reach(kFirst, 13 * kDrivenPeriod + 2 * driven_.afterwards()));
 }
 
 TEST_F(Driven, AVehicleThatChangesOverLateAndIsThenSeenOffItsPlanIsOutOfReach) {

@@ -39,16 +39,33 @@ TEST(FaultCampaign, NothingIsViolatedInRunsWithFaultsOfAllKinds) {
 }
 
 TEST(FaultCampaign, NothingIsViolatedAmongCarsWithRightOfWay) {
-  const FaultCampaign on_lab_network(
-      {.scenario_folder = test::source_folder() + "/launch_scripts/scenarios",
-       .on_lab_network = true,
-       .cars = 6,
-       .kinds = fault_kinds_of({})});
+  const std::string folder = test::source_folder() + "/launch_scripts/scenarios";
+  const FaultCampaign on_lab_network({.scenario_folder = folder,
+                                      .scenario = folder + "/lab_cars.yaml",
+                                      .cars = 6,
+                                      .kinds = fault_kinds_of({})});
   FaultTotals totals;
   for (std::uint64_t seed = 1; seed <= 6 / test::kThinning; ++seed) {
     const FaultCase the_case = on_lab_network.draw(seed);
     EXPECT_EQ(the_case.scenario.vehicles.size(), 6U);
     EXPECT_NE(the_case.scenario.conflicts, nullptr);
+    const FaultRunResult result = FaultCampaign::run(the_case);
+    EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
+    totals.add(result);
+  }
+  EXPECT_GT(totals.planned, totals.car_steps / 2) << describe(totals);
+}
+
+// Steps, horizons, copies of a command and cars of another kind than the lab's.
+TEST(FaultCampaign, NothingIsViolatedAmongPassengerCars) {
+  const std::string folder = test::source_folder() + "/launch_scripts/scenarios";
+  const FaultCampaign in_town({.scenario_folder = folder,
+                               .scenario = folder + "/passenger_cars_in_town.yaml",
+                               .cars = 3,
+                               .kinds = fault_kinds_of({})});
+  FaultTotals totals;
+  for (std::uint64_t seed = 1; seed <= 6 / test::kThinning; ++seed) {
+    const FaultCase the_case = in_town.draw(seed);
     const FaultRunResult result = FaultCampaign::run(the_case);
     EXPECT_TRUE(result.violations.empty()) << text_of(the_case, result);
     totals.add(result);

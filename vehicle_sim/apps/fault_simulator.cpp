@@ -20,6 +20,7 @@
 #include "planner/apps/interruption.hpp"
 #include "planner/apps/parallel.hpp"
 #include "planner/apps/progress_line.hpp"
+#include "planner/apps/scenario_name.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
 #include "vehicle_sim/apps/run_folder.hpp"
 #include "vehicle_sim/closed_loop/fault_campaign.hpp"
@@ -197,22 +198,25 @@ int campaign(const Choices& choices, const std::string& flags) {
 /// The flags to repeat before --replay for the same runs.
 std::string flags_of(const Choices& choices) {
   const bool is_constant = choices.priorities == hlc::coordination::kConstantPriorities.name;
-  return fmt::format(" --cars {}{}{}{}{}{}", choices.campaign.cars,
-                     choices.campaign.on_lab_network ? " --lab_network" : "",
-                     choices.campaign.has_two_rounds ? " --two_rounds" : "",
-                     is_constant ? "" : " --priorities " + choices.priorities,
-                     choices.faults.empty() ? "" : " --faults ", fmt::join(choices.faults, ","));
+  return fmt::format(
+      " --cars {}{}{}{}{}{}", choices.campaign.cars,
+      choices.campaign.scenario.empty() ? "" : " --scenario " + choices.campaign.scenario.string(),
+      choices.campaign.has_two_rounds ? " --two_rounds" : "",
+      is_constant ? "" : " --priorities " + choices.priorities,
+      choices.faults.empty() ? "" : " --faults ", fmt::join(choices.faults, ","));
 }
 
 /// What is driven in all runs.
 void add_campaign_flags(CLI::App& app, Choices& choices) {
   app.add_option("--cars", choices.campaign.cars,
-                 fmt::format("{} ... {}, with --lab_network {}; 0: as the seed has it",
+                 fmt::format("{} ... {}, with --scenario {}; 0: as the seed has it",
                              hlc::closed_loop::kFewestCars, hlc::closed_loop::kMostCars,
-                             hlc::closed_loop::kMostCarsOnLabNetwork))
+                             hlc::closed_loop::kMostDrawnCars))
       ->capture_default_str();
-  app.add_flag("--lab_network", choices.campaign.on_lab_network,
-               "cars with right of way on the roads of lab_cars in all runs");
+  hlc::apps::takes_scenario(
+      app.add_option("--scenario", choices.campaign.scenario,
+                     "of all runs, with the key draw, of which each run is another draw; default: "
+                     "the circle and the paper's roads"));
   app.add_flag(
       "--two_rounds", choices.campaign.has_two_rounds,
       "cars compute each other's plans (rounds: two); in half of the runs one does not take "

@@ -67,7 +67,7 @@ void AnnouncedCheck::driven(VehicleId vehicle, Nanoseconds tick, const Pose& pos
   Car& car = found->second;
   if (!car.running && !car.is_exempt) return;  // before the first plan
   if (car.running) check_area(vehicle, car, tick, pose, violations);
-  if (!car.runs_on && std::abs(speed_mps) > kMoving_mps && tick > car.last_plan + kPlanLasts) {
+  if (!car.runs_on && std::abs(speed_mps) > kMoving_mps && tick > car.last_plan + plan_lasts()) {
     car.runs_on = true;
     violations.push_back(
         {.at = tick,

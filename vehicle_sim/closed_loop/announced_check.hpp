@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -19,16 +20,20 @@ namespace hlc::closed_loop {
 ///   for this step, last of all, in its traffic or with its new plan; never outside for 0.5 s. What
 ///   a controller has announced before it died or was cut off holds on, and so does the plan before
 ///   (the command of the last one may have been lost).
-/// * **stands**: a vehicle moves only within kPlanLasts of its controller's last new plan.
+/// * **stands**: a vehicle moves only within `plan_lasts` of its controller's last new plan.
 class AnnouncedCheck {
  public:
   static constexpr Nanoseconds kPatience = kNanosecondsPerSecond / 2;
-  /// Horizon and step under way, braking, and the patience.
-  static constexpr Nanoseconds kPlanLasts = 3'200 * kNanosecondsPerMillisecond;
+  static constexpr Nanoseconds kBraking = 900 * kNanosecondsPerMillisecond;
   static constexpr double kMoving_mps = 0.1;
 
-  AnnouncedCheck(const Footprint& footprint, Nanoseconds period)
-      : footprint_(footprint), period_(period) {}
+  AnnouncedCheck(const Footprint& footprint, std::size_t horizon_steps, Nanoseconds period)
+      : footprint_(footprint), horizon_steps_(horizon_steps), period_(period) {}
+
+  /// Horizon and step under way, braking, and the patience.
+  [[nodiscard]] Nanoseconds plan_lasts() const {
+    return (horizon_steps_ + 1) * period_ + kBraking + kPatience;
+  }
 
   /// @param is_seen  its controller sees the vehicle in this step
   void published(const coordination::Traffic& traffic, bool is_seen = true);
@@ -80,6 +85,7 @@ class AnnouncedCheck {
                   Violations& violations) const;
 
   Footprint footprint_;
+  std::size_t horizon_steps_;
   Nanoseconds period_;
   std::map<VehicleId, Car> cars_;
 };

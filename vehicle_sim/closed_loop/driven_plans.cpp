@@ -3,27 +3,37 @@
 #include <algorithm>
 #include <string>
 
+#include "planner/controller/command_time.hpp"
 #include "planner/coordination/commit.hpp"
 #include "vehicle_sim/closed_loop/invariants.hpp"
 
 namespace hlc::closed_loop {
 namespace {
 
-constexpr std::size_t kKeptCommands = 16;  // more than a command's lifetime, copy included
-/// More than the pause between a command and its copy.
+/// Commands to be kept after those that may still be followed, copies included.
+constexpr std::size_t kKeptMore = 6;
+/// More than the pause between a command and its copy, or two copies.
 constexpr Nanoseconds kCopyPause = 10 * kNanosecondsPerMillisecond;
 /// By then a controller has seen what its vehicle does after a late change.
 constexpr std::size_t kStepsToShow = 2;
 
 }  // namespace
 
+DrivenPlans::DrivenPlans(std::size_t horizon_steps, Nanoseconds period,
+                         const StandingAreas* standing)
+    : horizon_steps_(horizon_steps),
+      period_(period),
+      num_copies_(controller::num_copies(horizon_steps, 1e-9 * static_cast<double>(period))),
+      standing_(standing) {}
+
 void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at,
                             Violations& violations) {
   if (command.points.empty()) return;  // it changes nothing (command_of)
   Car& car = cars_[{command.vehicle_id}];
   const Nanoseconds usable_until = command.valid_after_stamp + kCommandLifetime;
-  if (!car.sent.empty() && car.sent.back().create == command.create_stamp) {  // the copy
+  if (!car.sent.empty() && car.sent.back().create == command.create_stamp) {  // a copy
     car.sent.back().usable_until = usable_until;
+    ++car.sent.back().copies;
     return;
   }
   if (!car.is_seen && off_command_.insert({command.vehicle_id}).second) {
@@ -34,7 +44,9 @@ void DrivenPlans::commanded(const TrajectoryCommand& command, Nanoseconds at,
   }
   car.sent.push_back(
       {.create = command.create_stamp, .at = at, .usable_until = usable_until, .plan = nullptr});
-  if (car.sent.size() > kKeptCommands) car.sent.pop_front();
+  const double step_s = 1e-9 * static_cast<double>(period_);
+  if (car.sent.size() > controller::drivable_steps(horizon_steps_, step_s) + kKeptMore)
+    car.sent.pop_front();
 }
 
 bool DrivenPlans::has_newest_plan(const Car& car) {
@@ -50,7 +62,7 @@ void DrivenPlans::published(const coordination::Traffic& traffic, bool is_seen) 
   if (has_newest_plan(car) || !is_seen) return;
   car.is_mistaken = true;
   if (traffic.step.value >= car.missed_since.value + 2) {
-    car.out_of_reach_until = traffic.step.value * period_ + kAfterwards;
+    car.out_of_reach_until = traffic.step.value * period_ + afterwards();
   }
 }
 
@@ -99,13 +111,13 @@ void DrivenPlans::note_observation(Car& car, const coordination::Report& report)
   if (car.late_change.at == 0 || at <= car.late_change.at) return;
   if (++car.late_change.steps_ended <= kStepsToShow &&
       report.reason == coordination::FallbackReason::kDeviation) {
-    car.out_of_reach_until = at + kAfterwards;
+    car.out_of_reach_until = at + afterwards();
   }
 }
 
 bool DrivenPlans::is_unseen_after_change(const Car& car, Nanoseconds tick) const {
   const LateChange& change = car.late_change;
-  if (change.at == 0 || tick >= change.at + kAfterwards) return false;
+  if (change.at == 0 || tick >= change.at + afterwards()) return false;
   const bool is_overdue =
       change.steps_begun < kStepsToShow && tick > change.at + kStepsToShow * period_;
   return change.steps_ended == 0 || is_overdue;
@@ -141,7 +153,7 @@ void DrivenPlans::received(const TrajectoryCommand& command) {
 
 void DrivenPlans::died(VehicleId vehicle, Nanoseconds at) {
   Car& car = cars_[vehicle];
-  car.out_of_reach_until = at + kAfterwards;
+  car.out_of_reach_until = at + afterwards();
   car.driven = nullptr;
   car.follows = 0;
   car.received.drop_waiting();
@@ -162,9 +174,9 @@ bool DrivenPlans::has_dropped_plan(const Car& car, Nanoseconds tick) const {
 
 bool DrivenPlans::has_all_that_was_sent(const Car& car) {
   const Sent& newest = car.sent.back();
-  const bool has_copy = newest.usable_until > newest.create + kCommandLifetime;
-  const bool was_stopped_before_copy = !has_copy && car.controller_stopped >= newest.at &&
-                                       car.controller_stopped <= newest.at + kCopyPause;
+  const bool was_stopped_before_copy =
+      newest.copies < num_copies_ && car.controller_stopped >= newest.at &&
+      car.controller_stopped <= newest.at + num_copies_ * kCopyPause;
   return newest.create == car.received.newest() &&
          newest.usable_until <= car.received.usable_until() && !was_stopped_before_copy;
 }
@@ -173,7 +185,7 @@ void DrivenPlans::check_drop(VehicleId vehicle, Car& car, Nanoseconds tick,
                              Violations& violations) {
   if (!has_dropped_plan(car, tick)) return;
   if (!has_all_that_was_sent(car)) {
-    car.out_of_reach_until = tick + kAfterwards;
+    car.out_of_reach_until = tick + afterwards();
   } else if (!is_out_of_reach(vehicle, tick) && off_command_.insert(vehicle).second) {
     violations.push_back({.at = tick,
                           .check = "commands",
@@ -200,7 +212,7 @@ void DrivenPlans::driven(VehicleId vehicle, Nanoseconds tick, Nanoseconds follow
   car.follows = follows;
   if (has_newest_plan(car)) car.is_mistaken = false;
   const bool is_lost = car.is_mistaken && tick / period_ >= car.missed_since.value + 2;
-  if (is_lost) car.out_of_reach_until = tick + kAfterwards;
+  if (is_lost) car.out_of_reach_until = tick + afterwards();
   if (is_unseen_after_change(car, tick)) {
     car.out_of_reach_until = std::max(car.out_of_reach_until, tick + kVehiclePeriod);
   }

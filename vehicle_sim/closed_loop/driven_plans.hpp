@@ -36,7 +36,7 @@ namespace hlc::closed_loop {
 ///   * while its controller is mistaken, from the second step after the first plan that it has not
 ///     received;
 ///   * while it has dropped its command before the end of the plan, since what was sent has not
-///     arrived, or the controller was stopped between a command and its copy;
+///     arrived, or the controller was stopped between a command and its last copy;
 ///   * when it has received a plan that was sent in time only after that had begun (with its own
 ///     command, or with that of a later plan, which continues it), and has changed over to it late,
 ///     that is on a way that nobody could know: until its controller's next step, and longer if it
@@ -44,16 +44,16 @@ namespace hlc::closed_loop {
 ///     not show it yet, since states are older than their list: if the second one is overdue, since
 ///     its list is lost, the vehicle is out of reach until it begins;
 ///   * when its process dies;
-/// and for kAfterwards longer, while others may drive what they have agreed to meanwhile. Only what
-/// the vehicle has not received counts: commands that it has it must follow.
+/// and for `afterwards` longer, while others may drive what they have agreed to meanwhile. Only
+/// what the vehicle has not received counts: commands that it has it must follow.
 class DrivenPlans {
  public:
-  static constexpr Nanoseconds kAfterwards = 2 * kNanosecondsPerSecond;
-
   /// @param standing  as in PlansCheck
   DrivenPlans(std::size_t horizon_steps, Nanoseconds period,
-              const StandingAreas* standing = nullptr)
-      : horizon_steps_(horizon_steps), period_(period), standing_(standing) {}
+              const StandingAreas* standing = nullptr);
+
+  /// A plan and two steps more.
+  [[nodiscard]] Nanoseconds afterwards() const { return (horizon_steps_ + 2) * period_; }
 
   void predicted(const coordination::Prediction& prediction) {
     cars_[prediction.vehicle].predicted = prediction;
@@ -105,7 +105,8 @@ class DrivenPlans {
   struct Sent {
     Nanoseconds create{};
     Nanoseconds at{};
-    Nanoseconds usable_until{};  ///< with its copy, if that has been sent
+    Nanoseconds usable_until{};  ///< with the copies that have been sent
+    std::size_t copies{};        ///< sent so far
     AgreedPlan plan;
   };
   struct LateChange {
@@ -141,7 +142,7 @@ class DrivenPlans {
   void note_observation(Car& car, const coordination::Report& report) const;
   [[nodiscard]] bool is_unseen_after_change(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
-  [[nodiscard]] static bool has_all_that_was_sent(const Car& car);
+  [[nodiscard]] bool has_all_that_was_sent(const Car& car);
   void check_drop(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
   [[nodiscard]] bool is_checked(VehicleId vehicle, const Car& car, Nanoseconds tick) const;
   void check_order(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
@@ -152,6 +153,7 @@ class DrivenPlans {
 
   std::size_t horizon_steps_;
   Nanoseconds period_;
+  std::size_t num_copies_;  ///< of each command
   const StandingAreas* standing_;
   std::map<VehicleId, Car> cars_;
   std::set<std::pair<VehicleId, VehicleId>> met_;

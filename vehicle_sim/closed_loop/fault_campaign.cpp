@@ -38,6 +38,15 @@ std::optional<DifferentController> any_difference(const std::vector<std::uint8_t
                              .difference = kDifferences[random.below(kDifferences.size())]};
 }
 
+scenario::Scenario drawn_scenario(const std::filesystem::path& file, std::size_t cars) {
+  scenario::Scenario scenario = scenario::read_scenario({.file = file});
+  if (scenario.candidates.empty())
+    throw std::invalid_argument(file.string() + ": no key draw, must be there to run with faults");
+  if (!scenario.guests.empty())
+    throw std::invalid_argument(file.string() + ": guests, must be absent to run with faults");
+  return scenario::read_scenario({.file = file, .cars = cars});
+}
+
 }  // namespace
 
 scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars) {
@@ -56,7 +65,8 @@ scenario::Scenario with_cars(scenario::Scenario scenario, std::size_t cars) {
 }
 
 FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::move(settings)) {
-  const std::size_t most = settings_.on_lab_network ? kMostCarsOnLabNetwork : kMostCars;
+  const bool is_drawn = !settings_.scenario.empty();
+  const std::size_t most = is_drawn ? kMostDrawnCars : kMostCars;
   if (settings_.cars != 0 && (settings_.cars < kFewestCars || settings_.cars > most)) {
     throw std::invalid_argument(
         fmt::format("--cars = {}, must be 0 or in {} ... {}", settings_.cars, kFewestCars, most));
@@ -64,15 +74,14 @@ FaultCampaign::FaultCampaign(FaultCampaignSettings settings) : settings_(std::mo
   const std::filesystem::path& folder = settings_.scenario_folder;
   const std::size_t most_cars = std::max(settings_.cars, kMostCars);
   const scenario::Scenario roads =
-      settings_.on_lab_network
-          ? scenario::read_scenario({.file = folder / "lab_cars.yaml", .cars = most_cars})
-          : scenario::read_scenario({.file = folder / "paper_three_cars.yaml"});
+      is_drawn ? drawn_scenario(settings_.scenario, most_cars)
+               : scenario::read_scenario({.file = folder / "paper_three_cars.yaml"});
   const controller::PreparedSubgraph on_roads = scenario::prepare_subgraph_of(roads);
   for (std::size_t cars = kFewestCars; cars <= most_cars; ++cars) {
     if (settings_.cars != 0 && settings_.cars != cars) continue;
     Scenarios scenarios{.circle = {},
                         .roads = {.scenario = with_cars(roads, cars), .subgraph = on_roads}};
-    if (!settings_.on_lab_network) {
+    if (!is_drawn) {
       scenario::Scenario on_circle =
           scenario::read_scenario({.file = folder / "circle.yaml", .cars = cars});
       controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(on_circle);

@@ -15,13 +15,13 @@ namespace hlc::closed_loop {
 
 inline constexpr std::size_t kFewestCars = 3;
 inline constexpr std::size_t kMostCars = 8;
-inline constexpr std::size_t kMostCarsOnLabNetwork = 20;
+inline constexpr std::size_t kMostDrawnCars = 20;
 
 struct FaultCampaignSettings {
-  std::filesystem::path scenario_folder;  ///< holds circle, paper_three_cars and lab_cars
-  bool on_lab_network{};                  ///< all runs on the roads of lab_cars
-  /// kFewestCars ... kMostCars, on the roads of lab_cars kMostCarsOnLabNetwork; 0: by the seed,
-  /// kMostCars at most
+  std::filesystem::path scenario_folder;  ///< holds circle and paper_three_cars
+  /// Of all runs, one that draws its vehicles; empty: the two of the folder.
+  std::filesystem::path scenario{};
+  /// kFewestCars ... kMostCars, with `scenario` kMostDrawnCars; 0: by the seed, kMostCars at most
   std::size_t cars{};
   std::vector<FaultKind> kinds;  ///< of the faults; empty: no faults
   bool has_two_rounds{};         ///< with one that differs in half of the runs
@@ -53,15 +53,15 @@ struct Shrunk {
 
 /// Runs with faults, one for each seed. A seed chooses
 ///   * the scenario: cars on a circle that all drive to the other side, or cars on the paper's
-///     three routes, which merge and cross, from random starts; or, with `has_right_of_way`, cars
-///     with right of way, drawn from the paths of lab_cars;
+///     three routes, which merge and cross, from random starts; or a draw of `scenario`;
 ///   * real time or (one in five) logical time, the endpoints of the lab or of loopback;
 ///   * the faults (draw_faults) and their distribution in time, and every delay.
 /// Scenarios are read and automata built once; then any number of threads may run.
 class FaultCampaign {
  public:
   /// @throws std::invalid_argument naming the flag --cars if it is out of range;
-  /// std::invalid_argument, std::runtime_error if a scenario cannot be read
+  /// std::invalid_argument, std::runtime_error if a scenario cannot be read, draws no vehicles or
+  /// has guests
   explicit FaultCampaign(FaultCampaignSettings settings);
 
   [[nodiscard]] FaultCase draw(std::uint64_t seed) const;

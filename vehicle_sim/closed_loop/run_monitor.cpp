@@ -62,7 +62,7 @@ RunMonitor::RunMonitor(const scenario::Scenario& scenario, Nanoseconds calm_from
                 automaton_of(scenario).vehicle.safety_margin_m),
       plans_(scenario.horizon_steps, &standing_, obstacles_of(scenario)),
       driven_(scenario.horizon_steps, period_, &standing_),
-      announced_(automaton_of(scenario).vehicle.footprint, period_),
+      announced_(automaton_of(scenario).vehicle.footprint, scenario.horizon_steps, period_),
       planning_(calm_from),
       trace_(trace) {}
 
@@ -170,7 +170,7 @@ void RunMonitor::killed(const ProcessSlot& slot) {
     announced_.controller_died({slot.key.vehicle});
   }
   if (slot.key.role != Role::kVehicle || slot.process) return;
-  footprints_.died(slot.key.vehicle, DrivenPlans::kAfterwards / kVehiclePeriod);
+  footprints_.died(slot.key.vehicle, driven_.afterwards() / kVehiclePeriod);
   const Nanoseconds tick = last_[slot.key.vehicle].tick;
   driven_.died({slot.key.vehicle}, tick);
   announced_.exempt({slot.key.vehicle}, tick);

@@ -1,6 +1,5 @@
 #include "vehicle_sim/plant/plant.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -44,11 +43,8 @@ Measurement Plant::measure() {
 }
 
 void Plant::step(const vehicle::ActuatorInput& commanded) {
-  acting_ = under_way_.front();
-  const vehicle::ActuatorInput last = under_way_.back();
-  std::shift_left(under_way_.begin(), under_way_.end(), 1);
-  under_way_.back() = vehicle::actuated(
-      is_finite(commanded) ? commanded : vehicle::stop_input(motion_.speed_mps), last, vehicle_);
+  acting_ = inputs_.give(is_finite(commanded) ? commanded : vehicle::stop_input(motion_.speed_mps),
+                         vehicle_);
 
   const vehicle::VehicleMotion before = motion_;
   motion_ = vehicle::stepped(before, acting_, vehicle_, battery_voltage_v_);

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
-#include "planner/vehicle/identified_motion.hpp"
+#include "planner/vehicle/delayed_inputs.hpp"
 #include "vehicle_sim/plant/uniform_noise.hpp"
 
 namespace hlc::plant {
@@ -62,7 +61,7 @@ class Plant {
   vehicle::IdentifiedVehicle vehicle_;
   double battery_voltage_v_;
   vehicle::VehicleMotion motion_;
-  std::array<vehicle::ActuatorInput, vehicle::kInputDelayTicks> under_way_{};  ///< oldest first
+  vehicle::DelayedInputs inputs_;
   vehicle::ActuatorInput acting_;  ///< during the last step
   double last_acceleration_mps2_{};
   double odometer_m_{};

@@ -33,13 +33,6 @@ Follower::Output Follower::tick(Nanoseconds t_now, const vehicle::VehicleMotion&
   return output;
 }
 
-void Follower::give(const vehicle::ActuatorInput& input) {
-  acted_ = under_way_.front();
-  const vehicle::ActuatorInput last = under_way_.back();
-  std::shift_left(under_way_.begin(), under_way_.end(), 1);
-  under_way_.back() = vehicle::actuated(input, last, vehicle_);
-}
-
 Follower::Output Follower::decide(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
                                   const TrajectoryCommand* command) const {
   if (!is_finite(estimate)) {
@@ -54,7 +47,7 @@ Follower::Output Follower::decide(Nanoseconds t_now, const vehicle::VehicleMotio
   }
 
   vehicle::VehicleMotion start = estimate;
-  for (const vehicle::ActuatorInput& input : under_way_) {
+  for (const vehicle::ActuatorInput& input : inputs_.under_way()) {
     start = vehicle::stepped(start, input, vehicle_);
   }
   // The lead rule permits a trajectory that begins up to 30 ms after the input acts: use its begin.
@@ -84,7 +77,7 @@ double Follower::steering_for(const Reference& reference,
   const Point chord = (reference[1] - reference[0]) / vehicle::kIdentifiedStep_s;
   const double speed_mps = chord.norm();
   if (speed_mps <= kStandingSpeed_mps) {
-    return under_way_.back().steering;
+    return inputs_.last().steering;
   }
   const double lateral_error_m = cross(chord / speed_mps, reference[0] - start.pose.position_m());
   const double correction_rad = std::atan2(gains_.lateral_per_s * lateral_error_m, speed_mps);

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "hlc_bridge/messages/messages.hpp"
-#include "planner/vehicle/identified_motion.hpp"
+#include "planner/vehicle/delayed_inputs.hpp"
 
 namespace hlc::tracking {
 
@@ -76,7 +76,7 @@ class Follower {
 
   /// The input given at this tick, from any source: to be called once per tick, since the input
   /// will be queued at the next ones.
-  void give(const vehicle::ActuatorInput& input);
+  void give(const vehicle::ActuatorInput& input) { acted_ = inputs_.give(input, vehicle_); }
 
   /// Both at once.
   Output tick(Nanoseconds t_now, const vehicle::VehicleMotion& estimate,
@@ -96,7 +96,7 @@ class Follower {
 
   FollowerGains gains_;
   vehicle::IdentifiedVehicle vehicle_;
-  std::array<vehicle::ActuatorInput, vehicle::kInputDelayTicks> under_way_{};  ///< oldest first
+  vehicle::DelayedInputs inputs_;
   vehicle::ActuatorInput acted_;
 };
 

@@ -76,16 +76,18 @@ TEST(SharedStep, GrantsAreThoseOfWhatIsHeldAndBlocked) {
   const std::vector<right_of_way::Blocked> there{
       {VehicleId{3}, footprint_area({0.2, 0.2}, {1.7, 0.0, 0.0})}};
   SharedStep shared;
-  std::vector<std::vector<double>> seen;
-  const auto expect_granted = [&](const right_of_way::ConflictMap& of, const auto& holders,
-                                  const auto& blocked, double look_ahead_m,
-                                  const right_of_way::GrantOrder& order =
-                                      right_of_way::kLongestWait) {
-    const std::vector<double> granted = shared.granted(of, holders, blocked, look_ahead_m, order);
-    EXPECT_EQ(granted, right_of_way::grant(of, holders, blocked, look_ahead_m, order));
-    EXPECT_EQ(shared.granted(of, holders, blocked, look_ahead_m, order), granted);
-    seen.push_back(granted);
-  };
+  std::vector<std::vector<right_of_way::Taken>> seen;
+  const auto expect_granted =
+      [&](const right_of_way::ConflictMap& of, const auto& holders, const auto& blocked,
+          double look_ahead_m, const right_of_way::GrantOrder& order = right_of_way::kLongestWait) {
+        const std::vector<right_of_way::Taken> taken =
+            shared.taken(of, holders, blocked, look_ahead_m, order);
+        const std::vector<double> granted =
+            right_of_way::grant(of, holders, blocked, look_ahead_m, order);
+        EXPECT_EQ(taken, right_of_way::leave_a_way_on(of, holders, granted, blocked, order));
+        EXPECT_EQ(shared.taken(of, holders, blocked, look_ahead_m, order), taken);
+        seen.push_back(taken);
+      };
   const std::vector<right_of_way::Blocked> none;
   expect_granted(map, alone, none, 1.0);
   expect_granted(map, alone, here, 1.0);
@@ -101,7 +103,7 @@ TEST(SharedStep, GrantsAreThoseOfWhatIsHeldAndBlocked) {
         is_asked = true;
         return false;
       }};
-  static_cast<void>(shared.granted(other_map, moved, none, 0.5, asking));
+  static_cast<void>(shared.taken(other_map, moved, none, 0.5, asking));
   EXPECT_TRUE(is_asked) << "grants of another order were kept";
 }
 

@@ -12,6 +12,7 @@
 
 #include "planner/scenario/starts.hpp"
 #include "tests/planner/right_of_way/held_cells.hpp"
+#include "tests/planner/right_of_way/random_traffic.hpp"
 #include "tests/planner/right_of_way/routes.hpp"
 #include "tests/support/num_seeds.hpp"
 
@@ -302,93 +303,6 @@ TEST(Grant, NothingIsGrantedWhereTheWholeRouteIsInConflict) {
   EXPECT_EQ(grant(map, {&one, 1}, {}, kLookAhead_m), std::vector{0.25});
 }
 
-constexpr double kLongestStep_m = 0.16;
-
-/// Cars that drive at random speeds to the ends of their authorities.
-class RandomTraffic {
- public:
-  RandomTraffic(const scenario::Scenario& scenario, std::uint64_t seed)
-      : map_(*scenario.conflicts), random_(seed) {
-    for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
-      holders_.push_back({.vehicle = vehicle.id,
-                          .claim = {.route = vehicle.route_number, .place_m = vehicle.start_s_m}});
-    }
-  }
-
-  /// Longest wait, in steps, of a vehicle at its end.
-  std::uint32_t step() {
-    const std::uint32_t longest = drive(0.01);
-    holders_ = granted(map_, std::move(holders_));
-    return longest;
-  }
-
-  /// Messages are lost with this probability, or none between two vehicles gets through for a time.
-  /// Returns how many vehicles had not received all.
-  std::size_t step_with_losses(double share_lost, double shortest_step_m) {
-    static_cast<void>(drive(shortest_step_m));
-    std::vector<Holder> after;
-    std::size_t num_cautious = 0;
-    for (const Holder& own : holders_) {
-      std::vector<Holder> received;
-      std::vector<Missing> missing;
-      for (const Holder& other : holders_) {
-        const bool is_received =
-            other.vehicle == own.vehicle || is_delivered(other, own, share_lost);
-        Missing& known = known_.try_emplace({own.vehicle, other.vehicle}, other).first->second;
-        if (is_received) {
-          known = {.last = other};
-          received.push_back(other);
-        } else {
-          known.moved_m += kLongestStep_m;
-          missing.push_back(known);
-        }
-      }
-      const auto cautious =
-          missing.empty() ? std::nullopt
-                          : cautious_grant(map_, received, missing, {}, kLookAhead_m, own.vehicle);
-      num_cautious += cautious ? 1U : 0U;
-      const std::vector<Holder> all = cautious ? *cautious : granted(map_, received);
-      after.push_back(*std::ranges::find(all, own.vehicle, &Holder::vehicle));
-    }
-    holders_ = std::move(after);
-    return num_cautious;
-  }
-
-  [[nodiscard]] const std::vector<Holder>& holders() const { return holders_; }
-
- private:
-  /// Longest wait, in steps, of a vehicle at its end.
-  std::uint32_t drive(double shortest_step_m) {
-    std::uint32_t longest = 0;
-    for (std::size_t i = 0; i < holders_.size(); ++i) {
-      coordination::LaneClaim& claim = holders_[i].claim;
-      const double moved_m = std::min(
-          claim.ahead_m, std::uniform_real_distribution(shortest_step_m, kLongestStep_m)(random_));
-      claim.place_m = std::fmod(claim.place_m + moved_m, map_.length_m(claim.route));
-      claim.ahead_m -= moved_m;
-      claim.waiting_steps = moved_m < 0.002 ? claim.waiting_steps + 1 : 0;
-      longest = std::max(longest, claim.waiting_steps);
-    }
-    return longest;
-  }
-
-  bool is_delivered(const Holder& from, const Holder& to, double share_lost) {
-    std::uniform_real_distribution<double> any(0.0, 1.0);
-    int& cut_steps = cut_steps_[{from.vehicle, to.vehicle}];
-    if (cut_steps == 0 && any(random_) < 0.1 * share_lost) {
-      cut_steps = std::uniform_int_distribution(2, 40)(random_);
-    }
-    if (cut_steps > 0) --cut_steps;
-    return cut_steps == 0 && any(random_) >= share_lost;
-  }
-
-  const ConflictMap& map_;
-  std::mt19937_64 random_;
-  std::vector<Holder> holders_;
-  std::map<std::pair<VehicleId, VehicleId>, Missing> known_;  ///< to the first, of the second
-  std::map<std::pair<VehicleId, VehicleId>, int> cut_steps_;  ///< from the first to the second
-};
-
 // Ten cars stood in a knot for good after a tenth of the messages had been lost.
 TEST(CautiousGrant, NoTwoVehiclesHoldOverlappingCellsWhateverIsLost) {
   std::size_t num_cautious = 0;
@@ -396,7 +310,7 @@ TEST(CautiousGrant, NoTwoVehiclesHoldOverlappingCellsWhateverIsLost) {
   for (std::uint64_t seed = 1; seed <= num_seeds; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const scenario::Scenario drawn = scenario::with_random_starts(lab_cars(), seed);
-    RandomTraffic traffic(drawn, seed);
+    RandomTraffic traffic(drawn, seed, kLookAhead_m);
     for (int step = 0; step < 150; ++step) {
       // Few losses, so that in many steps some have received all and others have not.
       num_cautious +=
@@ -412,7 +326,7 @@ TEST(Grant, NoneOfTwentyCarsOfTheLabWaitsForever) {
   for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(8); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const scenario::Scenario drawn = scenario::with_random_starts(lab_cars(), seed);
-    RandomTraffic traffic(drawn, seed);
+    RandomTraffic traffic(drawn, seed, kLookAhead_m);
     std::uint32_t longest_of_draw = 0;
     for (int step = 0; step < 2000; ++step) {
       longest_of_draw = std::max(longest_of_draw, traffic.step());

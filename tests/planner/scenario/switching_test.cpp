@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "planner/controller/replaced_plans.hpp"
+#include "planner/controller/command_time.hpp"
 #include "planner/maneuver_design/automaton_builder.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -16,6 +16,7 @@ namespace hlc::scenario::switching_test {
 namespace {
 
 const std::string kFolder = test::source_folder() + "/launch_scripts/";
+const std::uint64_t kDrivableSteps = controller::drivable_steps(8, 0.2);  // of the paper's scenario
 
 /// The red car alone without lane bounds, on an automaton with all labels, and its subgraphs.
 class Switching : public testing::Test {
@@ -177,7 +178,7 @@ TEST_F(SwitchingAutomata, TheOneBeforeStaysAsLongAsAPlanThatMayBeDrivenHasManeuv
     EXPECT_FALSE(watched_.expired()) << "it is driven, or was a step ago";
   }
   // Its commands may have been received last (replaced_plans.hpp).
-  for (std::uint64_t k = 1; k < controller::DeviationRules{}.drivable_steps; ++k) {
+  for (std::uint64_t k = 1; k < kDrivableSteps; ++k) {
     static_cast<void>(step());
     EXPECT_FALSE(watched_.expired());
   }
@@ -197,8 +198,7 @@ TEST_F(SwitchingAutomata, APlanThatIsDrivenToItsEndStandsOnItsOwn) {
     EXPECT_FALSE(watched_.expired());
     EXPECT_EQ(step().status, coordination::StepStatus::kPlanned);
   }
-  for (std::uint64_t k = 0; k < controller::DeviationRules{}.drivable_steps; ++k)
-    static_cast<void>(step());
+  for (std::uint64_t k = 0; k < kDrivableSteps; ++k) static_cast<void>(step());
   EXPECT_TRUE(watched_.expired());
 }
 

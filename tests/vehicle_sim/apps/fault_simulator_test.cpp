@@ -35,17 +35,19 @@ TEST_P(FaultSimulatorRefuses, InOneLineWithExitCodeTwo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Flags, FaultSimulatorRefuses,
-    testing::Values(
-        BadFaultFlags{"--cars 2", "--cars"}, BadFaultFlags{"--cars 9", "3 ... 8"},
-        BadFaultFlags{"--cars 21 --lab_network", "3 ... 20"}, BadFaultFlags{"--cars -1", "--cars"},
-        BadFaultFlags{"--runs 0", "--runs"}, BadFaultFlags{"--seed -1", "--seed"},
-        BadFaultFlags{"--faults kill,flood", "flood"}, BadFaultFlags{"--faults kill,kill", "twice"},
-        BadFaultFlags{"--jobs 0", "--jobs"}, BadFaultFlags{"--speed 3", "--speed"},
-        BadFaultFlags{"--runs 1 --out /dev/null/records", "--out"},
-        BadFaultFlags{"--keep 1", "--replay"}, BadFaultFlags{"--trace x.txt", "--replay"},
-        BadFaultFlags{"--cars 3 --replay 1 --keep 1,two", "two"},
-        BadFaultFlags{"--cars 3 --replay 1 --keep 99", "99"},
-        BadFaultFlags{"--cars 3 --replay 1 --trace /no/such/folder/x", "--trace"}));
+    testing::Values(BadFaultFlags{"--cars 2", "--cars"}, BadFaultFlags{"--cars 9", "3 ... 8"},
+                    BadFaultFlags{"--cars 21 --scenario lab_cars", "3 ... 20"},
+                    BadFaultFlags{"--cars -1", "--cars"}, BadFaultFlags{"--runs 0", "--runs"},
+                    BadFaultFlags{"--seed -1", "--seed"},
+                    BadFaultFlags{"--faults kill,flood", "flood"},
+                    BadFaultFlags{"--faults kill,kill", "twice"},
+                    BadFaultFlags{"--jobs 0", "--jobs"}, BadFaultFlags{"--speed 3", "--speed"},
+                    BadFaultFlags{"--runs 1 --out /dev/null/records", "--out"},
+                    BadFaultFlags{"--keep 1", "--replay"},
+                    BadFaultFlags{"--trace x.txt", "--replay"},
+                    BadFaultFlags{"--cars 3 --replay 1 --keep 1,two", "two"},
+                    BadFaultFlags{"--cars 3 --replay 1 --keep 99", "99"},
+                    BadFaultFlags{"--cars 3 --replay 1 --trace /no/such/folder/x", "--trace"}));
 
 TEST(FaultSimulator, HelpIsGoodAndNamesTheExitCodes) {
   const auto [exit_code, output] = run_simulator("--help");

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner/coordination/messages.hpp"
+#include "planner/right_of_way/conflict_map.hpp"
+#include "planner/right_of_way/grant.hpp"
+
+namespace hlc::right_of_way {
+
+/// Vehicles that stand in one cell each, at the ends of their authorities, and take turns
+/// (way_on.hpp). A value; the arguments must outlive it.
+class Queues {
+ public:
+  /// @param claims  one for each vehicle
+  /// @param from    the same before: each vehicle is to pass the next three stretches of conflict
+  ///                cells from there
+  Queues(const ConflictMap& map, std::span<const coordination::LaneClaim> claims,
+         std::span<const coordination::LaneClaim> from, std::span<const Blocked> blocked);
+
+  /// Indices of the vehicles that are stuck when no further turn is possible, fewest of several
+  /// orders of turns; all if there is a circle.
+  [[nodiscard]] std::vector<std::size_t> stuck() const;
+  /// Whether there is a circle once all have closed up.
+  [[nodiscard]] bool has_circle() const;
+
+ private:
+  static constexpr std::uint16_t kNobody = 0xffff;
+
+  struct Car {
+    std::size_t route{};
+    std::int64_t at{};      ///< its cell, counted on over the end of the route
+    std::int64_t target{};  ///< the first cell behind what it is to pass
+    std::int64_t last{};    ///< it goes no farther, so that turns end
+
+    [[nodiscard]] bool has_passed() const { return at >= target; }
+  };
+
+  void take_turns(bool closes_circles, std::size_t order);
+  bool take_turn(bool closes_circles, bool has_passed);
+  void close_up();
+  bool goes_on(std::size_t who);
+  [[nodiscard]] bool closes_circle(std::size_t who) const;
+  void pass(std::size_t who);
+  template <class Visit>
+  bool visit_in_the_way(std::size_t who, const Visit& visit) const;
+  [[nodiscard]] bool is_way_free(std::size_t who) const;
+  [[nodiscard]] bool is_blocked(std::size_t route, std::size_t index) const;
+  [[nodiscard]] std::uint32_t cell_of(const Car& car) const;
+  [[nodiscard]] bool is_any_left() const;
+
+  const ConflictMap* map_;
+  std::span<const Blocked> blocked_;
+  std::vector<Car> cars_;
+  std::vector<std::size_t> order_;      ///< whose turn comes first
+  std::vector<std::uint16_t> holders_;  ///< of each cell of the map
+};
+
+}  // namespace hlc::right_of_way
