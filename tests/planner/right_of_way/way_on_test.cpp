@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "planner/right_of_way/queues.hpp"
 #include "tests/planner/right_of_way/held_cells.hpp"
@@ -31,64 +32,51 @@ std::vector<coordination::LaneClaim> claims_of(const std::vector<Holder>& holder
 
 /// In steps of vehicles that drive to the ends of their authorities.
 std::uint32_t longest_stand(const scenario::Scenario& drawn, std::uint64_t seed,
-                            bool leaves_a_way_on, int steps) {
+                            bool leaves_a_way_on) {
   RandomTraffic traffic(drawn, seed, kLookAhead_m);
   std::uint32_t longest = 0;
-  for (int step = 0; step < steps; ++step) {
+  for (int step = 0; step < 2000; ++step) {
     longest = std::max(longest, traffic.step(leaves_a_way_on));
   }
   return longest;
 }
 
-// In five of 13 runs of 600 s with twenty cars on tours, circles of full lanes had formed, in which
-// each car waited for the next one to leave its lane.
+// In six of 13 runs of 600 s with twenty cars on tours, a car stood at the end that had waited for
+// up to 241 s: lanes were full, and each car waited for the next one to leave its lane.
 TEST(WayOn, CarsOnToursDoNotWaitForEachOtherAroundACircleOfFullLanes) {
-  constexpr int kSteps = 4000;
+  constexpr std::uint64_t kSeed = 28;
   constexpr std::uint32_t kMany = 600;
-  for (const std::uint64_t seed : {4U, 11U}) {
+  const scenario::Scenario drawn = on_tours(kSeed);
+  EXPECT_GT(longest_stand(drawn, kSeed, false), kMany) << "they got on without";
+  EXPECT_LT(longest_stand(drawn, kSeed, true), kMany);
+}
+
+TEST(WayOn, NothingIsTakenThatWasNotGrantedAndNoCircleIsClosed) {
+  std::size_t num_declined = 0;
+  for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(4); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const scenario::Scenario drawn = on_tours(seed);
-    EXPECT_GT(longest_stand(drawn, seed, false, kSteps), kMany) << "they got on without";
-    EXPECT_LT(longest_stand(drawn, seed, true, kSteps), kMany);
-  }
-}
-
-class OnTours : public testing::TestWithParam<std::uint64_t> {};
-
-TEST_P(OnTours, NothingIsTakenThatWasNotGrantedAndNoCircleIsClosed) {
-  const scenario::Scenario drawn = on_tours(GetParam());
-  const ConflictMap& map = *drawn.conflicts;
-  RandomTraffic traffic(drawn, GetParam(), kLookAhead_m);
-  std::size_t num_declined = 0;
-  for (int step = 0; step < 300; ++step) {
-    static_cast<void>(traffic.step());
-    const std::vector<Holder>& before = traffic.before();
-    const std::vector<Holder>& after = traffic.holders();
-    const std::vector<double> granted = grant(map, before, {}, kLookAhead_m);
-    const std::vector<Taken> taken = leave_a_way_on(map, before, granted, {});
-    for (std::size_t i = 0; i < taken.size(); ++i) {
-      EXPECT_EQ(taken[i].ahead_m, after[i].claim.ahead_m);
-      EXPECT_GE(taken[i].ahead_m, before[i].claim.ahead_m);
-      EXPECT_LE(taken[i].ahead_m, granted[i]);
-      const bool declines = !taken[i].declined_for.empty();
-      EXPECT_EQ(declines, taken[i].ahead_m < granted[i]) << "vehicle " << i;
-      EXPECT_EQ(std::ranges::count(taken[i].declined_for, before[i].vehicle), 0);
-      num_declined += declines ? 1U : 0U;
+    const ConflictMap& map = *drawn.conflicts;
+    RandomTraffic traffic(drawn, seed, kLookAhead_m);
+    for (int step = 0; step < 500; ++step) {
+      static_cast<void>(traffic.step());
+      const std::vector<Holder>& before = traffic.before();
+      const std::vector<Holder>& after = traffic.holders();
+      const std::vector<double> granted = grant(map, before, {}, kLookAhead_m);
+      const std::vector<Taken> taken = leave_a_way_on(map, before, granted, {});
+      for (std::size_t i = 0; i < taken.size(); ++i) {
+        EXPECT_EQ(taken[i].ahead_m, after[i].claim.ahead_m);
+        EXPECT_GE(taken[i].ahead_m, before[i].claim.ahead_m);
+        EXPECT_LE(taken[i].ahead_m, granted[i]);
+        const bool declines = !taken[i].declined_for.empty();
+        EXPECT_EQ(declines, taken[i].ahead_m < granted[i]) << "vehicle " << i;
+        EXPECT_EQ(std::ranges::count(taken[i].declined_for, before[i].vehicle), 0);
+        num_declined += declines ? 1U : 0U;
+      }
+      ASSERT_FALSE(Queues(map, claims_of(after), claims_of(before), {}).has_circle()) << step;
     }
-    ASSERT_FALSE(Queues(map, claims_of(after), claims_of(before), {}).has_circle()) << step;
   }
   EXPECT_GT(num_declined, 0U) << "nothing was tried";
-}
-
-INSTANTIATE_TEST_SUITE_P(Seeds, OnTours, testing::Range<std::uint64_t>(1, 5));
-
-TEST(WayOn, Scan) {
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const scenario::Scenario drawn = on_tours(seed);
-    const auto l = longest_stand(drawn, seed, false, 2000);
-    if (l > 400) std::printf("seed %d: %u\n", static_cast<int>(seed), l);
-    std::fflush(stdout);
-  }
 }
 
 TEST(WayOn, AloneACarTakesAllThatIsGranted) {
