@@ -51,12 +51,17 @@ Queues::Queues(const ConflictMap& map, std::span<const coordination::LaneClaim> 
   }
 }
 
-std::vector<std::size_t> Queues::stuck() const {
+bool Queues::all_get_on() const {
   for (std::size_t order = 0; order < kQuickOrders; ++order) {
-    Queues quick = *this;  // if all get on, there is no circle
-    quick.take_turns(true, order);
-    if (!quick.is_any_left()) return {};
+    Queues queues = *this;
+    queues.take_turns(true, order);
+    if (!queues.is_any_left()) return true;
   }
+  return false;
+}
+
+std::vector<std::size_t> Queues::stuck() const {
+  if (all_get_on()) return {};
   std::vector<std::size_t> all(cars_.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   if (has_circle()) return all;

@@ -21,6 +21,9 @@ class Queues {
   Queues(const ConflictMap& map, std::span<const coordination::LaneClaim> claims,
          std::span<const coordination::LaneClaim> from, std::span<const Blocked> blocked);
 
+  /// Whether there are turns that bring all past their stretches, of those tried; then there is no
+  /// circle.
+  [[nodiscard]] bool all_get_on() const;
   /// Indices of the vehicles that are stuck when no further turn is possible, fewest of several
   /// orders of turns; all if there is a circle.
   [[nodiscard]] std::vector<std::size_t> stuck() const;

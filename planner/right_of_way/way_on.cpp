@@ -23,39 +23,48 @@ std::optional<double> before_stretch_m(const ConflictMap& map,
   return std::nullopt;
 }
 
+std::vector<coordination::LaneClaim> claims_to(std::span<const Holder> holders,
+                                               std::span<const double> ahead_m) {
+  std::vector<coordination::LaneClaim> claims;
+  for (std::size_t who = 0; who < holders.size(); ++who) {
+    claims.push_back(holders[who].claim);
+    claims.back().ahead_m = ahead_m[who];
+  }
+  return claims;
+}
+
 }  // namespace
 
 std::vector<Taken> leave_a_way_on(const ConflictMap& map, std::span<const Holder> holders,
                                   std::span<const double> ahead_m, std::span<const Blocked> blocked,
                                   const GrantOrder& order) {
   std::vector<coordination::LaneClaim> before;
-  std::vector<coordination::LaneClaim> ends;
+  std::vector<Taken> taken;
   std::vector<std::size_t> entering;
   for (std::size_t who = 0; who < holders.size(); ++who) {
     before.push_back(holders[who].claim);
-    const std::optional<double> stretch_m = before_stretch_m(map, before.back(), ahead_m[who]);
-    ends.push_back(before.back());
-    ends.back().ahead_m = stretch_m.value_or(ahead_m[who]);
-    if (stretch_m) entering.push_back(who);
+    taken.push_back({.ahead_m = ahead_m[who], .declined_for = {}});
+    if (before_stretch_m(map, before.back(), ahead_m[who])) entering.push_back(who);
   }
-  std::vector<Taken> taken(holders.size());
-  std::optional<std::size_t> num_stuck;  // with `ends`, once that matters
+  std::vector<coordination::LaneClaim> ends = claims_to(holders, ahead_m);
+  if (entering.empty() || Queues(map, ends, before, blocked).all_get_on()) return taken;
+  for (const std::size_t who : entering) {
+    ends[who].ahead_m = *before_stretch_m(map, before[who], ahead_m[who]);
+  }
+  std::size_t num_stuck = Queues(map, ends, before, blocked).stuck().size();
   sort_by(order, holders, entering);
   for (const std::size_t who : entering) {
-    std::vector<coordination::LaneClaim> more = ends;
-    more[who].ahead_m = ahead_m[who];
-    const std::vector<std::size_t> stuck = Queues(map, more, before, blocked).stuck();
-    if (!stuck.empty() && !num_stuck) num_stuck = Queues(map, ends, before, blocked).stuck().size();
-    if (stuck.empty() || stuck.size() <= *num_stuck) {
-      ends = std::move(more);
+    const double less_m = std::exchange(ends[who].ahead_m, ahead_m[who]);
+    const std::vector<std::size_t> stuck = Queues(map, ends, before, blocked).stuck();
+    if (stuck.size() <= num_stuck) {
       num_stuck = stuck.size();
       continue;
     }
+    ends[who].ahead_m = taken[who].ahead_m = less_m;
     for (const std::size_t one : stuck) {
       if (one != who) taken[who].declined_for.push_back(holders[one].vehicle);
     }
   }
-  for (std::size_t who = 0; who < ends.size(); ++who) taken[who].ahead_m = ends[who].ahead_m;
   return taken;
 }
 
