@@ -35,7 +35,7 @@ std::uint32_t longest_stand(const scenario::Scenario& drawn, std::uint64_t seed,
                             bool leaves_a_way_on) {
   RandomTraffic traffic(drawn, seed, kLookAhead_m);
   std::uint32_t longest = 0;
-  for (int step = 0; step < 2000; ++step) {
+  for (int step = 0; step < 3000; ++step) {
     longest = std::max(longest, traffic.step(leaves_a_way_on));
   }
   return longest;
@@ -44,7 +44,7 @@ std::uint32_t longest_stand(const scenario::Scenario& drawn, std::uint64_t seed,
 // In six of 13 runs of 600 s with twenty cars on tours, a car stood at the end that had waited for
 // up to 241 s: lanes were full, and each car waited for the next one to leave its lane.
 TEST(WayOn, CarsOnToursDoNotWaitForEachOtherAroundACircleOfFullLanes) {
-  constexpr std::uint64_t kSeed = 28;
+  constexpr std::uint64_t kSeed = 11;
   constexpr std::uint32_t kMany = 600;
   const scenario::Scenario drawn = on_tours(kSeed);
   EXPECT_GT(longest_stand(drawn, kSeed, false), kMany) << "they got on without";
