@@ -3,7 +3,6 @@
 #include <span>
 #include <vector>
 
-#include "planner/coordination/ids.hpp"
 #include "planner/right_of_way/conflict_map.hpp"
 #include "planner/right_of_way/grant.hpp"
 #include "planner/right_of_way/grant_order.hpp"
