@@ -124,7 +124,8 @@ bool Queues::closes_circle(std::size_t who) const {
 }
 
 /// Whoever has only such in its way as can get out of it can move one day, too; if some are left,
-/// they are a circle, with those that wait for them.
+/// they are a circle, with those that wait for them. What is no vehicle does not wait for anybody:
+/// a car behind it is stuck, but in no circle.
 bool Queues::has_circle() const {
   Queues closed_up = *this;
   closed_up.close_up();
@@ -135,7 +136,7 @@ bool Queues::has_circle() const {
     for (std::size_t who = 0; who < cars_.size(); ++who) {
       if (can_move[who]) continue;
       const bool is_in_circle = closed_up.visit_in_the_way(
-          who, [&](std::uint16_t other) { return other == kNobody || !can_move[other]; });
+          who, [&](std::uint16_t other) { return other != kNobody && !can_move[other]; });
       if (is_in_circle) continue;
       can_move[who] = true;
       found = true;
