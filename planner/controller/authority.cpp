@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "planner/geometry/footprint.hpp"
-#include "planner/right_of_way/way_on.hpp"
 #include "planner/road/reference_path.hpp"
 
 namespace hlc::controller {
@@ -52,16 +51,16 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
   unused_steps_ = is_unused ? unused_steps_ + 1 : 0;
   const bool gives_back = unused_steps_ == kPatience_steps;
   if (gives_back) unused_steps_ = 0;
-  claim_ = {.route = route,
-            .place_m = place_m,
-            .ahead_m = std::max({gives_back ? 0.0 : held_m, plans_m, 0.0}),
-            .waiting_steps =
-                stands && !gives_back && declined_for_.empty() ? claim_.waiting_steps + 1 : 0};
+  claim_ = {
+      .route = route,
+      .place_m = place_m,
+      .ahead_m = std::max({gives_back ? 0.0 : held_m, plans_m, 0.0}),
+      .waiting_steps = stands && !gives_back && !taken_.declines ? claim_.waiting_steps + 1 : 0};
   now_ = now;
   has_place_ = true;
   granted_.clear();
   holders_.clear();
-  declined_for_.clear();
+  taken_ = {};
   is_limited_ = false;
 }
 
@@ -92,7 +91,7 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
       shared.taken(*map_, before, blocked, look_ahead_m, *order_);
   for (std::size_t i = 0; i < granted_.size(); ++i) {
     granted_[i].claim.ahead_m = taken[i].ahead_m;
-    if (granted_[i].vehicle == own) declined_for_ = taken[i].declined_for;
+    if (granted_[i].vehicle == own) taken_ = taken[i];
   }
   std::optional<std::vector<right_of_way::Holder>> cautious;
   if (!assumed.empty()) {
@@ -118,15 +117,13 @@ void Authority::decline(VehicleId own, const std::vector<right_of_way::Holder>& 
     if (before[i].vehicle == own) who = i;
     ahead_m.push_back(before[i].vehicle == own ? own_ahead_m : before[i].claim.ahead_m);
   }
-  right_of_way::Taken taken =
-      right_of_way::leave_a_way_on(*map_, before, ahead_m, blocked, *order_)[who];
-  own_ahead_m = taken.ahead_m;
-  declined_for_ = std::move(taken.declined_for);
+  taken_ = right_of_way::leave_a_way_on(*map_, before, ahead_m, blocked, *order_)[who];
+  own_ahead_m = taken_.ahead_m;
 }
 
 std::vector<VehicleId> Authority::withheld_by() const {
   if (!is_limited_) return {};
-  if (!declined_for_.empty()) return declined_for_;
+  if (taken_.declines) return taken_.declined_for;
   return right_of_way::withheld_by(*map_, holders_, blocked_, own_place_);
 }
 

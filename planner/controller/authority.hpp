@@ -12,6 +12,7 @@
 #include "planner/coordination/plan.hpp"
 #include "planner/right_of_way/conflict_map.hpp"
 #include "planner/right_of_way/grant.hpp"
+#include "planner/right_of_way/way_on.hpp"
 
 namespace hlc::controller {
 
@@ -97,7 +98,7 @@ class Authority {
   std::vector<right_of_way::Holder> granted_;
   std::vector<right_of_way::Holder> holders_;
   std::vector<right_of_way::Blocked> blocked_;
-  std::vector<VehicleId> declined_for_;  ///< way_on.hpp, in this step
+  right_of_way::Taken taken_;  ///< in this step
   std::size_t own_place_{};
   bool is_limited_{};  ///< the end limits planning
   std::map<VehicleId, Known> known_;

@@ -19,7 +19,8 @@ bool has_waited_longer(const Holder& a, const Holder& b) {
 
 }  // namespace
 
-constinit const GrantOrder kLongestWait{.name = "longest_wait", .is_before = &has_waited_longer};
+constinit const GrantOrder kLongestWait{
+    .name = "longest_wait", .is_before = &has_waited_longer, .puts_waiting_first = true};
 constinit const GrantOrder kNearestEnd{.name = "nearest_end", .is_before = &is_nearer_to_its_end};
 
 void sort_by(const GrantOrder& order, std::span<const Holder> holders,

@@ -24,6 +24,9 @@ struct GrantOrder {
   /// True if a comes before b: a strict weak order, a pure function of what the two announced.
   /// Vehicles that are alike in it follow by their ids.
   bool (*is_before)(const Holder& a, const Holder& b);
+  /// Who waits comes before who does not. Only then may a vehicle decline what it is granted
+  /// (way_on.hpp): otherwise it might be granted the same again and again, and nobody else.
+  bool puts_waiting_first{false};
 };
 
 /// Sorts indices of `holders` by the order. @pre each is one of them

@@ -21,14 +21,11 @@ class Queues {
   Queues(const ConflictMap& map, std::span<const coordination::LaneClaim> claims,
          std::span<const coordination::LaneClaim> from, std::span<const Blocked> blocked);
 
-  /// Whether there are turns that bring all past their stretches, of those tried; then there is no
-  /// circle.
-  [[nodiscard]] bool all_get_on() const;
   /// Indices of the vehicles that are stuck when no further turn is possible, fewest of several
-  /// orders of turns; all if there is a circle.
+  /// orders of turns.
   [[nodiscard]] std::vector<std::size_t> stuck() const;
-  /// Whether there is a circle once all have closed up.
-  [[nodiscard]] bool has_circle() const;
+  /// How many vehicles are in a circle, or wait for one, once all have closed up.
+  [[nodiscard]] std::size_t num_in_circles() const;
 
  private:
   static constexpr std::uint16_t kNobody = 0xffff;
@@ -42,23 +39,21 @@ class Queues {
     [[nodiscard]] bool has_passed() const { return at >= target; }
   };
 
-  void take_turns(bool closes_circles, std::size_t order);
-  bool take_turn(bool closes_circles, bool has_passed);
+  void take_turns(const std::vector<std::size_t>& order);
+  bool take_turn(const std::vector<std::size_t>& order, bool has_passed);
   void close_up();
   bool goes_on(std::size_t who);
-  [[nodiscard]] bool closes_circle(std::size_t who) const;
   void pass(std::size_t who);
   template <class Visit>
   bool visit_in_the_way(std::size_t who, const Visit& visit) const;
   [[nodiscard]] bool is_way_free(std::size_t who) const;
   [[nodiscard]] bool is_blocked(std::size_t route, std::size_t index) const;
   [[nodiscard]] std::uint32_t cell_of(const Car& car) const;
-  [[nodiscard]] bool is_any_left() const;
+  [[nodiscard]] std::vector<std::size_t> left() const;
 
   const ConflictMap* map_;
   std::span<const Blocked> blocked_;
   std::vector<Car> cars_;
-  std::vector<std::size_t> order_;      ///< whose turn comes first
   std::vector<std::uint16_t> holders_;  ///< of each cell of the map
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 #include "planner/right_of_way/queues.hpp"
@@ -10,17 +9,43 @@
 namespace hlc::right_of_way {
 namespace {
 
-/// Of an extension to `ahead_m` what lies before its first conflict cell; none: it has none.
-std::optional<double> before_stretch_m(const ConflictMap& map,
-                                       const coordination::LaneClaim& before, double ahead_m) {
+/// More are judged at so great a cost that a step would last too long; they take all.
+constexpr std::size_t kMostVehicles = 30;
+
+/// Ends between `before` and `ahead_m` from which on the next cell is a conflict cell, and
+/// `ahead_m`, ascending: how much of the extension may be taken.
+std::vector<double> ends_of(const ConflictMap& map, const coordination::LaneClaim& before,
+                            double ahead_m) {
+  const auto is_conflict = [&](std::int64_t cell) {
+    return map.is_conflict(before.route, map.index_of(before.route, cell));
+  };
   const std::int64_t first = map.count_at(before.route, before.place_m + before.ahead_m) + 1;
   const std::int64_t last = map.count_at(before.route, before.place_m + ahead_m);
+  std::vector<double> ends_m;
   for (std::int64_t cell = first; cell <= last; ++cell) {
-    if (!map.is_conflict(before.route, map.index_of(before.route, cell))) continue;
-    if (cell == first) return before.ahead_m;
-    return static_cast<double>(cell - 1) * map.cell_m(before.route) - before.place_m;
+    if (!is_conflict(cell) || (cell > first && is_conflict(cell - 1))) continue;
+    const double end_m = static_cast<double>(cell - 1) * map.cell_m(before.route) - before.place_m;
+    ends_m.push_back(cell == first ? before.ahead_m : end_m);
   }
-  return std::nullopt;
+  ends_m.push_back(ahead_m);
+  return ends_m;
+}
+
+/// What is to be kept small, the first one first.
+struct Judged {
+  std::size_t num_in_circles{};
+  std::vector<std::size_t> stuck;
+
+  [[nodiscard]] bool is_worse_than(const Judged& other) const {
+    return std::pair(num_in_circles, stuck.size()) >
+           std::pair(other.num_in_circles, other.stuck.size());
+  }
+};
+
+Judged judged(const Queues& queues) {
+  Judged result{.num_in_circles = 0, .stuck = queues.stuck()};
+  if (!result.stuck.empty()) result.num_in_circles = queues.num_in_circles();
+  return result;
 }
 
 std::vector<coordination::LaneClaim> claims_to(std::span<const Holder> holders,
@@ -33,6 +58,17 @@ std::vector<coordination::LaneClaim> claims_to(std::span<const Holder> holders,
   return claims;
 }
 
+void decline(std::size_t who, double end_m, std::span<const Holder> holders,
+             const std::vector<std::size_t>& stuck_anyway, const std::vector<std::size_t>& stuck,
+             std::vector<Taken>& taken) {
+  taken[who].ahead_m = end_m;
+  taken[who].declines = true;
+  for (const std::size_t one : stuck) {
+    const bool is_stuck_anyway = std::ranges::find(stuck_anyway, one) != stuck_anyway.end();
+    if (one != who && !is_stuck_anyway) taken[who].declined_for.push_back(holders[one].vehicle);
+  }
+}
+
 }  // namespace
 
 std::vector<Taken> leave_a_way_on(const ConflictMap& map, std::span<const Holder> holders,
@@ -40,30 +76,31 @@ std::vector<Taken> leave_a_way_on(const ConflictMap& map, std::span<const Holder
                                   const GrantOrder& order) {
   std::vector<coordination::LaneClaim> before;
   std::vector<Taken> taken;
+  std::vector<std::vector<double>> ends_m;
   std::vector<std::size_t> entering;
   for (std::size_t who = 0; who < holders.size(); ++who) {
     before.push_back(holders[who].claim);
-    taken.push_back({.ahead_m = ahead_m[who], .declined_for = {}});
-    if (before_stretch_m(map, before.back(), ahead_m[who])) entering.push_back(who);
+    taken.push_back({.ahead_m = ahead_m[who], .declines = false, .declined_for = {}});
+    ends_m.push_back(ends_of(map, before.back(), ahead_m[who]));
+    if (ends_m.back().size() > 1) entering.push_back(who);
   }
+  if (entering.empty() || !order.puts_waiting_first || holders.size() > kMostVehicles) return taken;
   std::vector<coordination::LaneClaim> ends = claims_to(holders, ahead_m);
-  if (entering.empty() || Queues(map, ends, before, blocked).all_get_on()) return taken;
-  for (const std::size_t who : entering) {
-    ends[who].ahead_m = *before_stretch_m(map, before[who], ahead_m[who]);
-  }
-  std::size_t num_stuck = Queues(map, ends, before, blocked).stuck().size();
+  if (Queues(map, ends, before, blocked).stuck().empty()) return taken;
+  for (const std::size_t who : entering) ends[who].ahead_m = ends_m[who].front();
+  Judged best = judged({map, ends, before, blocked});
   sort_by(order, holders, entering);
   for (const std::size_t who : entering) {
-    const double less_m = std::exchange(ends[who].ahead_m, ahead_m[who]);
-    const std::vector<std::size_t> stuck = Queues(map, ends, before, blocked).stuck();
-    if (stuck.size() <= num_stuck) {
-      num_stuck = stuck.size();
-      continue;
+    for (std::size_t i = 1; i < ends_m[who].size(); ++i) {
+      ends[who].ahead_m = ends_m[who][i];
+      Judged then = judged({map, ends, before, blocked});
+      if (then.is_worse_than(best)) {
+        decline(who, ends_m[who][i - 1], holders, best.stuck, then.stuck, taken);
+        break;
+      }
+      best = std::move(then);
     }
-    ends[who].ahead_m = taken[who].ahead_m = less_m;
-    for (const std::size_t one : stuck) {
-      if (one != who) taken[who].declined_for.push_back(holders[one].vehicle);
-    }
+    ends[who].ahead_m = taken[who].ahead_m;
   }
   return taken;
 }

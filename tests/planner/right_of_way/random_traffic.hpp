@@ -37,7 +37,7 @@ class RandomTraffic {
     for (std::size_t i = 0; i < holders_.size(); ++i) {
       coordination::LaneClaim& claim = holders_[i].claim;
       claim.ahead_m = leaves_a_way_on ? taken[i].ahead_m : ahead_m[i];
-      has_declined_[holders_[i].vehicle] = !taken[i].declined_for.empty();
+      has_declined_[holders_[i].vehicle] = taken[i].declines;
     }
     return longest;
   }
