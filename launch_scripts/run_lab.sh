@@ -142,7 +142,8 @@ case "$preset" in
 esac
 [[ -z $from_standstill || ($from_standstill =~ ^(true|false)$ && -n $commonroad) ]] ||
   fail "--from_standstill = $from_standstill, must be one of true, false, with --commonroad"
-[[ -z $commonroad || -z $map$routes ]] || fail "--commonroad with --map or --routes, must be without"
+[[ -z $commonroad || -z $map$routes$cars$seed$policy ]] ||
+  fail "--commonroad with --map, --routes, --cars, --seed or --policy, must be without"
 [[ -z $commonroad || -f $commonroad ]] || fail "--commonroad = $commonroad is no file, must be a CommonRoad file"
 [[ -z $commonroad || $commonroad == /* ]] || commonroad=$PWD/$commonroad
 if [[ -z $scenario ]]; then
@@ -361,8 +362,9 @@ summarize() {
 }
 # shellcheck disable=SC2317 # called by the trap
 end_early() {
-  end_all
-  [[ ! -s $out/reports.csv ]] || summarize
+  end_children
+  end_view
+  [[ ! -s $out/reports.csv ]] || summarize # before the imported scenario is removed: it keeps a copy
   exit 130
 }
 trap end_early INT TERM HUP

@@ -62,6 +62,11 @@ class Figure:
         return f"{reached}asked {at} {self.asked:.4g} {self.unit}".ljust(88) + f"{self.earned} of {self.points} points"
 
 
+def short(value):
+    """Its begin, in one line."""
+    return " ".join(repr(value).split())[:60]
+
+
 def answer_in(file, name):
     """What the Python file calls `name`. Importing it must not fail."""
     if not file.is_file():
@@ -70,6 +75,7 @@ def answer_in(file, name):
     if spec is None:
         raise Invalid(f"{file}: must be a file in Python, with the ending .py")
     module = importlib.util.module_from_spec(spec)
+    sys.modules["answer"] = module  # where dataclasses look for it
     called(file, lambda: spec.loader.exec_module(module))
     if not hasattr(module, name):
         raise Invalid(f"{file}: {name} is missing, must be in the answer")
@@ -86,7 +92,8 @@ def called(file, function, *arguments):
         raise Invalid(f"{file}:{error.lineno}: {error.msg}, must be Python") from error
     except (Exception, SystemExit) as error:
         lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
-        raise Invalid(f"{file}:{lines[-1] if lines else 1}: raised {type(error).__name__}: {error}") from error
+        raised = " ".join(f"{type(error).__name__}: {error}".split())
+        raise Invalid(f"{file}:{lines[-1] if lines else 1}: raised {raised}") from error
 
 
 # 1: a trim from a drive
@@ -172,7 +179,7 @@ def numbers_in(file, name, value, length):
     except (TypeError, ValueError):
         numbers = np.array([])
     if numbers.shape != (length,) or not np.isfinite(numbers).all():
-        raise Invalid(f"{file}: {name} {value!r:.60}, must be {length} finite numbers")
+        raise Invalid(f"{file}: {name} {short(value)}, must be {length} finite numbers")
     return numbers
 
 
@@ -182,7 +189,7 @@ def grade_priority(answer, _):
     """Six cars on the lab's roads, without right of way: what keeps them apart are their priorities alone."""
     rule = answer_in(answer, "rule")
     if not callable(rule):
-        raise Invalid(f"{answer}: rule = {rule!r:.60}, must be a function")
+        raise Invalid(f"{answer}: rule = {short(rule)}, must be a function")
     runs = []
     for seed in range(1, 7):
         crowd = hlc.load_scenario("lab_cars", cars=6, seed=seed, steps=200, values={"right_of_way": False})
@@ -225,7 +232,7 @@ def lane_error_m(run):
 def grade_automaton(answer, _):
     trims = answer_in(answer, "TRIMS")
     if not isinstance(trims, (list, tuple)):
-        raise Invalid(f"{answer}: TRIMS = {trims!r:.60}, must be a list of (speed [m/s], steering [rad])")
+        raise Invalid(f"{answer}: TRIMS = {short(trims)}, must be a list of (speed [m/s], steering [rad])")
     trims = [tuple(numbers_in(answer, f"TRIMS: entry {i} =", one, 2).tolist()) for i, one in enumerate(trims, 1)]
     given = hlc.drive(hlc.load_scenario("paper_red_alone"))
     own = drive_with(trims, answer)
@@ -261,7 +268,7 @@ def longest_stand_s(run):
 def grade_crossing(answer, _):
     values = answer_in(answer, "VALUES")
     if not isinstance(values, dict):
-        raise Invalid(f"{answer}: VALUES = {values!r:.60}, must be a dict of scenario keys")
+        raise Invalid(f"{answer}: VALUES = {short(values)}, must be a dict of scenario keys")
     for key in values:
         if key not in KEYS:
             raise Invalid(f"{answer}: VALUES: {key!r}, must be one of {', '.join(KEYS)}")

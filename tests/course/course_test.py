@@ -85,6 +85,8 @@ class CourseTest(unittest.TestCase):
                  ("trim", "def identify(*_):\n    return 1 / 0\n", r"answer.py:2: raised ZeroDivisionError"),
                  ("trim", "def identify(\n", r"answer.py:1: .*, must be Python"),
                  ("trim", "pass\n", "identify is missing"),
+                 ("trim", "def identify(*_):\n    raise ValueError('of\\ntwo lines')\n", "ValueError: of two lines"),
+                 ("trim", "import numpy\ndef identify(*_):\n    return numpy.ones((2, 2))\n", "must be 2 finite numbers"),
                  ("priority", "rule = 3\n", "rule = 3, must be a function"),
                  ("priority", "def rule(situation):\n    return [99]\n", "the function returned .99., must be"),
                  ("priority", "def rule(_):\n    return no_such_name\n", r"answer.py:2: raised NameError"),

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -33,7 +34,7 @@ class CommonRoadRun : public testing::Test {
                               .problem(8, {0.0, -32.0, 1.5708}, {goal({0.0, 28.0, 1.5708})})
                               .xml());
   }
-  int run_lab(const std::vector<std::string>& further = {}) const {
+  [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& further) const {
     std::vector<std::string> command{"/usr/bin/env",
                                      "TMPDIR=" + (folder_ / "tmp").string(),
                                      source_folder() + "/launch_scripts/run_lab.sh",
@@ -46,7 +47,10 @@ class CommonRoadRun : public testing::Test {
                                      "--out",
                                      folder_ / "run"};
     command.insert(command.end(), further.begin(), further.end());
-    ChildProcess run(command, folder_ / "output");
+    return command;
+  }
+  [[nodiscard]] int run_lab(const std::vector<std::string>& further = {}) const {
+    ChildProcess run(command(further), folder_ / "output");
     return run.wait_for(240s).value_or(-1);
   }
   [[nodiscard]] std::string problem() const { return folder_ / "crossing.xml"; }
@@ -70,6 +74,20 @@ TEST_F(CommonRoadRun, SolvesTheProblemsAndKeepsWhatWasDriven) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp")) << "temporary files are removed";
 }
 
+// The scenario had been removed before the summary was made.
+TEST_F(CommonRoadRun, KeepsWhatWasDrivenUntilItWasInterrupted) {
+  put_problems(0.0);
+  const std::filesystem::path out = folder_ / "run";
+  ChildProcess run(command({"--simulated_time", "false"}), folder_ / "output");
+  ASSERT_TRUE(eventually(120s, [&] { return read_text(out / "reports.csv").size() > 1000; }))
+      << output();
+  run.send(SIGINT);
+  EXPECT_EQ(run.wait_for(60s), 130) << output();
+  EXPECT_TRUE(std::filesystem::exists(out / "summary.json")) << output();
+  EXPECT_TRUE(std::filesystem::exists(out / "configuration/scenarios/crossing.yaml"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));
+}
+
 TEST_F(CommonRoadRun, RefusesWhatCannotBeHonouredByItsName) {
   put_problems(6.0);
   EXPECT_EQ(run_lab(), 2);
@@ -82,7 +100,7 @@ TEST_F(CommonRoadRun, RefusesWhatCannotBeHonouredByItsName) {
 TEST_F(CommonRoadRun, RefusesFlagsThatDoNotFit) {
   put_problems(0.0);
   EXPECT_EQ(run_lab({"--map", problem()}), 2);
-  EXPECT_THAT(output(), HasSubstr("--commonroad with --map or --routes, must be without"));
+  EXPECT_THAT(output(), HasSubstr("--commonroad with --map, --routes, --cars, --seed or --policy"));
   EXPECT_EQ(run_lab({"--from_standstill", "perhaps"}), 2);
   EXPECT_THAT(output(), HasSubstr("--from_standstill = perhaps, must be one of true, false"));
 }
