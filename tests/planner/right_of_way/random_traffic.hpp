@@ -54,7 +54,8 @@ class RandomTraffic {
       for (const Holder& other : holders_) {
         const bool is_received =
             other.vehicle == own.vehicle || is_delivered(other, own, share_lost);
-        Missing& known = known_.try_emplace({own.vehicle, other.vehicle}, other).first->second;
+        Missing& known =
+            known_.try_emplace({own.vehicle, other.vehicle}, Missing{.last = other}).first->second;
         if (is_received) {
           known = {.last = other};
           received.push_back(other);
