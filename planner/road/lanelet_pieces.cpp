@@ -95,7 +95,7 @@ ConvexPolygon rectangle_in(const Lanelet& lanelet, const Pieces& pieces) {
 bool is_convex(const std::vector<Point>& corners_m) {
   const ConvexPolygon hull = convex_hull(corners_m);
   const double hull_m2 = area_m2(hull.vertices_m);
-  return !hull.empty() && hull_m2 - area_m2(corners_m) <= kConvexShare * hull_m2;
+  return !hull.empty() && std::abs(hull_m2 - area_m2(corners_m)) <= kConvexShare * hull_m2;
 }
 
 bool contains(const Lanelet& lanelet, const Point& point_m) {

@@ -21,11 +21,25 @@ constexpr std::array kInFile{
 constexpr std::array kInLanelet{"leftBound",   "rightBound",   "predecessor",
                                 "successor",   "adjacentLeft", "adjacentRight",
                                 "laneletType", "userOneWay",   "userBidirectional"};
-constexpr std::array kNotForCars{"sidewalk", "crosswalk", "bicycleLane",
-                                 "busLane",  "shoulder",  "border"};
+constexpr std::array kTypesForCars{"urban",           "interstate", "country",  "highway",
+                                   "mainCarriageWay", "accessRamp", "exitRamp", "driveWay",
+                                   "intersection",    "unknown"};
+constexpr std::array kTypesForOthers{"sidewalk", "crosswalk", "bicycleLane", "busLane",
+                                     "busStop",  "shoulder",  "border"};
+constexpr std::array kMayBeCrossed{"dashed", "broad_dashed", "no_marking", "unknown"};
 
+template <std::size_t size>
+bool is_among(std::string_view name, const std::array<const char*, size>& names) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// Without blanks around it.
 std::string_view text_in(const XMLElement& element) {
-  return element.GetText() == nullptr ? "" : element.GetText();
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::string_view text = element.GetText() == nullptr ? "" : element.GetText();
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return "";
+  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
 }
 
 class RuleReader {
@@ -34,7 +48,7 @@ class RuleReader {
 
   [[nodiscard]] std::set<LaneletId> read() const {
     for_each(file_.root(), [&](const XMLElement& element) {
-      if (std::ranges::find(kInFile, std::string_view(element.Name())) == kInFile.end()) {
+      if (!is_among(element.Name(), kInFile)) {
         file_.fail(element, fmt::format("<{}> is not regarded, must be absent", element.Name()));
       }
     });
@@ -57,16 +71,25 @@ class RuleReader {
 
   void check(const XMLElement& lanelet) const {
     for_each(lanelet, [&](const XMLElement& element) {
-      if (std::ranges::find(kInLanelet, std::string_view(element.Name())) != kInLanelet.end()) {
-        return;
+      if (!is_among(element.Name(), kInLanelet)) {
+        file_.fail(element, fmt::format("lanelet {}: <{}> is not regarded, must be absent",
+                                        file_.id_attribute(lanelet, "id"), element.Name()));
       }
-      file_.fail(element, fmt::format("lanelet {}: <{}> is not regarded, must be absent",
-                                      file_.id_attribute(lanelet, "id"), element.Name()));
+      if (std::string_view(element.Name()) == "laneletType") check_type(lanelet, element);
     });
     for (const auto& [bound, neighbour] :
          {std::pair("leftBound", "adjacentLeft"), std::pair("rightBound", "adjacentRight")}) {
       check_line(lanelet, bound, neighbour);
     }
+  }
+
+  void check_type(const XMLElement& lanelet, const XMLElement& type) const {
+    const std::string_view text = text_in(type);
+    if (is_among(text, kTypesForCars) || is_among(text, kTypesForOthers)) return;
+    file_.fail(type,
+               fmt::format("lanelet {}: <laneletType> is {}, must be one of {}, {}",
+                           file_.id_attribute(lanelet, "id"), CommonRoadDocument::quoted(text),
+                           fmt::join(kTypesForCars, ", "), fmt::join(kTypesForOthers, ", ")));
   }
 
   void check_line(const XMLElement& lanelet, const char* bound, const char* neighbour) const {
@@ -75,10 +98,13 @@ class RuleReader {
     if (beside == nullptr || line == nullptr || file_.attribute(*beside, "drivingDir") != "same") {
       return;
     }
-    if (text_in(*line) != "solid" && text_in(*line) != "broad_solid") return;
-    file_.fail(*line, fmt::format("lanelet {}: <lineMarking> of <{}> is {}, must be none that cars "
-                                  "must not cross, where a lanelet of the same direction is beside",
-                                  file_.id_attribute(lanelet, "id"), bound, text_in(*line)));
+    if (is_among(text_in(*line), kMayBeCrossed)) return;
+    file_.fail(
+        *line,
+        fmt::format("lanelet {}: <lineMarking> of <{}> is {}, must be one of {} where "
+                    "a lanelet of the same direction is beside: cars may cross it",
+                    file_.id_attribute(lanelet, "id"), bound,
+                    CommonRoadDocument::quoted(text_in(*line)), fmt::join(kMayBeCrossed, ", ")));
   }
 
   [[nodiscard]] static bool is_for_cars(const XMLElement& lanelet) {
@@ -88,8 +114,7 @@ class RuleReader {
     for_each(lanelet, [&](const XMLElement& element) {
       const std::string_view name = element.Name();
       const std::string_view text = text_in(element);
-      has_other_type |=
-          name == "laneletType" && std::ranges::find(kNotForCars, text) != kNotForCars.end();
+      has_other_type |= name == "laneletType" && is_among(text, kTypesForOthers);
       if (name != "userOneWay" && name != "userBidirectional") return;
       has_users = true;
       has_cars |= text == "vehicle" || text == "car";

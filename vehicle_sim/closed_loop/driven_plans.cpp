@@ -172,7 +172,7 @@ bool DrivenPlans::has_dropped_plan(const Car& car, Nanoseconds tick) const {
   return !has_run_out && tick >= car.received.usable_until();
 }
 
-bool DrivenPlans::has_all_that_was_sent(const Car& car) {
+bool DrivenPlans::has_all_that_was_sent(const Car& car) const {
   const Sent& newest = car.sent.back();
   const bool was_stopped_before_copy =
       newest.copies < num_copies_ && car.controller_stopped >= newest.at &&

@@ -142,7 +142,7 @@ class DrivenPlans {
   void note_observation(Car& car, const coordination::Report& report) const;
   [[nodiscard]] bool is_unseen_after_change(const Car& car, Nanoseconds tick) const;
   [[nodiscard]] bool has_dropped_plan(const Car& car, Nanoseconds tick) const;
-  [[nodiscard]] bool has_all_that_was_sent(const Car& car);
+  [[nodiscard]] bool has_all_that_was_sent(const Car& car) const;
   void check_drop(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);
   [[nodiscard]] bool is_checked(VehicleId vehicle, const Car& car, Nanoseconds tick) const;
   void check_order(VehicleId vehicle, Car& car, Nanoseconds tick, Violations& violations);

@@ -39,12 +39,12 @@ std::optional<DifferentController> any_difference(const std::vector<std::uint8_t
 }
 
 scenario::Scenario drawn_scenario(const std::filesystem::path& file, std::size_t cars) {
-  scenario::Scenario scenario = scenario::read_scenario({.file = file});
+  scenario::Scenario scenario = scenario::read_scenario({.file = file, .cars = cars});
   if (scenario.candidates.empty())
     throw std::invalid_argument(file.string() + ": no key draw, must be there to run with faults");
   if (!scenario.guests.empty())
     throw std::invalid_argument(file.string() + ": guests, must be absent to run with faults");
-  return scenario::read_scenario({.file = file, .cars = cars});
+  return scenario;
 }
 
 }  // namespace

@@ -59,14 +59,23 @@ TEST(LaneletsForCars, WithRulesThatNoCarRegardsAreRefusedByName) {
 TEST(LaneletsForCars, WithLinesThatCarsWouldCrossAreRefused) {
   const std::string beside = "<adjacentLeft ref=\"5\" drivingDir=\"same\"/>";
   const std::string oncoming = "<adjacentLeft ref=\"5\" drivingDir=\"opposite\"/>";
-  for (const std::string line : {"solid", "broad_solid"}) {
+  for (const std::string line :
+       {"solid", "broad_solid", "solid_dashed", "dashed_solid", "curb", "dahsed"}) {
     const std::string marking = "<lineMarking>" + line + "</lineMarking>";
     EXPECT_THAT(refusal(lanelet(beside, marking)),
-                HasSubstr("lanelet 4: <lineMarking> of <leftBound> is " + line));
+                HasSubstr("lanelet 4: <lineMarking> of <leftBound> is \"" + line + "\", must be"));
     EXPECT_EQ(refusal(lanelet(oncoming, marking)), "");
     EXPECT_EQ(refusal(lanelet("", marking)), "");
   }
   EXPECT_EQ(refusal(lanelet(beside, "<lineMarking>dashed</lineMarking>")), "");
+  EXPECT_EQ(refusal(lanelet(beside, "<lineMarking> dashed\n</lineMarking>")), "");
+}
+
+TEST(LaneletsForCars, OfATypeThatIsNotKnownAreRefused) {
+  EXPECT_THAT(
+      refusal(lanelet("<laneletType>urbn</laneletType>")),
+      HasSubstr("file.xml:2: lanelet 4: <laneletType> is \"urbn\", must be one of urban, "));
+  EXPECT_EQ(refusal(lanelet("<laneletType> urban </laneletType>")), "");
 }
 
 TEST(LaneletsForCars, InAFileWithOtherElementsAreRefusedByTheirNames) {
