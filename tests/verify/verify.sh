@@ -99,7 +99,8 @@ drive "evaluate" timeout 120 "$bin/evaluate" --scenario obstacle_field --keep_ru
   --scenario_folder "$root/launch_scripts/scenarios" --out "$out/obstacles"
 # Planning problems of CommonRoad files.
 problems=()
-for name in $("$bin/write_commonroad_samples" "$out"); do
+drive "write_commonroad_samples" "$bin/write_commonroad_samples" "$out"
+for name in $(<"$out/log"); do
   drive "import_commonroad" "$bin/import_commonroad" --commonroad "$out/$name.xml" --like passenger_cars_in_town \
     --out "$out/$name.yaml"
   problems+=("$out/$name.yaml")
