@@ -84,7 +84,8 @@ TEST(WayOn, NothingIsTakenThatWasNotGrantedAndNoCircleIsClosed) {
 TEST(WayOn, AloneACarTakesAllThatIsGranted) {
   const scenario::Scenario drawn = on_tours(1);
   const std::vector<Holder> alone{{.vehicle = {7}, .claim = {.route = 3, .place_m = 2.0}}};
-  for (double ahead_m = 0.0; ahead_m < 4.0; ahead_m += 0.25) {
+  for (int quarters = 0; quarters < 16; ++quarters) {
+    const double ahead_m = 0.25 * quarters;
     const std::vector<double> granted{ahead_m};
     EXPECT_EQ(leave_a_way_on(*drawn.conflicts, alone, granted, {}),
               (std::vector<Taken>{{.ahead_m = ahead_m, .declines = false, .declined_for = {}}}));
