@@ -19,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Location of a file's copy.
-fs::path copy_of(const fs::path& run_folder, const fs::path& file) {
+/// Folder and name of a file's copy.
+fs::path folder_and_name(const fs::path& file) {
   const fs::path full = fs::absolute(file).lexically_normal();
-  return run_folder / "configuration" / full.parent_path().filename() / full.filename();
+  return full.parent_path().filename() / full.filename();
 }
 
 /// For YAML: null for none.
@@ -35,7 +35,7 @@ fs::path flags_file(const fs::path& run_folder) {
 }
 
 fs::path copy_or_original(const fs::path& run_folder, const fs::path& file) {
-  fs::path copy = copy_of(run_folder, file);
+  fs::path copy = kept_copy(run_folder, file);
   return fs::exists(copy) ? copy : file;
 }
 
@@ -99,9 +99,15 @@ fs::path kept_file(const fs::path& run_folder, const Node& flags, const std::str
 
 }  // namespace
 
+fs::path kept_copy(const fs::path& run_folder, const fs::path& file) {
+  return run_folder / "configuration" / folder_and_name(file);
+}
+
+fs::path path_between_kept(const fs::path& file) { return ".." / folder_and_name(file); }
+
 void keep_configuration(const fs::path& run_folder, const std::vector<fs::path>& files) {
   for (const fs::path& file : files) {
-    const fs::path copy = copy_of(run_folder, file);
+    const fs::path copy = kept_copy(run_folder, file);
     const fs::path folder = copy.parent_path();
     std::error_code error;
     fs::create_directories(folder, error);

@@ -19,6 +19,13 @@ namespace hlc::record {
 void keep_configuration(const std::filesystem::path& run_folder,
                         const std::vector<std::filesystem::path>& files);
 
+/// Where the copy of a file is.
+[[nodiscard]] std::filesystem::path kept_copy(const std::filesystem::path& run_folder,
+                                              const std::filesystem::path& file);
+
+/// The same as a path from the copy of another file: `../<folder>/<file>`.
+[[nodiscard]] std::filesystem::path path_between_kept(const std::filesystem::path& file);
+
 /// `configuration/flags.yaml`: the choices of a run besides the files; run_lab.sh writes the same
 /// keys and its own.
 [[nodiscard]] std::string flags_yaml(const scenario::ScenarioChoices& choices);

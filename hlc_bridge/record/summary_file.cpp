@@ -79,6 +79,12 @@ Json vehicle_json(const result::VehicleSummary& vehicle) {
                                              {"waits_for", numbers(vehicle.wait->vehicles)}}
                                       : Json(nullptr);
   json["arrived_s"] = or_null(vehicle.arrived_s);
+  json["driven_speed_mps"] =
+      figures(vehicle.driven_speed_mps, 1.0,
+              {{"mean", &result::Statistics::mean}, {"max", &result::Statistics::max}});
+  json["plan_cost_m2"] =
+      figures(vehicle.plan_cost_m2, 1.0,
+              {{"mean", &result::Statistics::mean}, {"max", &result::Statistics::max}});
   return json;
 }
 

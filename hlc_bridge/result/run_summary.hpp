@@ -27,6 +27,8 @@ struct VehicleSummary {
   /// Positions driven at the steps' times to the same line.
   std::optional<Statistics> driven_error_m;
   std::optional<Statistics> tracking_error_m;  ///< driven to planned position, at every tick
+  std::optional<Statistics> driven_speed_mps;  ///< at the steps' times
+  std::optional<Statistics> plan_cost_m2;      ///< of the steps in which a plan was found
   /// Largest footprint_deviation_m at any tick. Excluded are steps near the steering limit, and
   /// those after them until the vehicle is back: their areas hold the drift
   /// (planner/controller/drift.hpp), and the controller reports a vehicle that leaves them.

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Grades the answers to the four exercises of the course (README.md here): what was reached, what is asked, the points.
 
-An exercise has a few figures of runs. Each gives points, evenly from the worst value to the one that is asked; the goal
-is reached when all are. The figures are measured here, from what the package hlc returns: an answer's own are not read.
+An exercise has a few figures. Each gives points, evenly from the worst value to the one that is asked; the goal is
+reached when all are. Of trim they compare what the answer returns with the trims that were driven; those of the others
+are in summary.json of runs in closed loop, driven here with the answer.
 """
 import argparse
+import contextlib
 import csv
 import importlib.util
 import json
@@ -23,7 +25,7 @@ except ImportError as missing:
     sys.exit(2)
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-PERIOD_S = 0.02  # of a recorded drive
+STUCK = 6  # exit code of a run that was driven, with cars that were stuck at the end
 
 
 class Invalid(Exception):
@@ -85,7 +87,10 @@ def answer_in(file, name):
 def called(file, function, *arguments):
     """What the answer's function returns. What it raises becomes one line, with the answer's line in it."""
     try:
-        return function(*arguments)
+        with contextlib.redirect_stdout(sys.stderr):  # the grade alone is printed
+            return function(*arguments)
+    except Invalid:
+        raise
     except hlc.Error as refused:
         raise Invalid(f"{file}: {refused}") from refused
     except SyntaxError as error:
@@ -94,6 +99,27 @@ def called(file, function, *arguments):
         lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(file)]
         raised = " ".join(f"{type(error).__name__}: {error}".split())
         raise Invalid(f"{file}:{lines[-1] if lines else 1}: raised {raised}") from error
+
+
+def driven(scenario, folder, **choices):
+    """The content of summary.json of a run in closed loop, which is written to the folder."""
+    run = hlc.drive(scenario, out=folder, **choices)
+    if run.exit_code not in (0, STUCK):
+        raise Invalid(f"{folder}: {run.reason}, must be a run that is driven to its end")
+    if run.summary["collisions"] > 0:
+        raise Invalid(f"{folder}: {run.summary['collisions']} collisions, must be a run without")
+    return run.summary
+
+
+def mean_over_cars(summaries, key):
+    """Of a figure with a mean for every car, over all cars of all runs; of those that have it."""
+    means = [car[key]["mean"] for one in summaries for car in one["vehicles"]]
+    return np.mean([mean for mean in means if mean is not None] or [math.inf])
+
+
+def stuck(summaries):
+    """Cars that had waited for others for 20 s or longer at the end."""
+    return sum(len(one["stuck_vehicles"]) for one in summaries)
 
 
 # 1: a trim from a drive
@@ -147,6 +173,8 @@ def recorded_drive(folder):
     if len(found) != 1:
         raise Invalid(f"{folder}: must be a run folder, with one file in configuration/scenarios")
     scenario = hlc.load_scenario(found[0])
+    if scenario.vehicle_size_m != hlc.load_scenario("lab_red_alone").vehicle_size_m:
+        raise Invalid(f"{folder}: a vehicle of {scenario.vehicle_size_m} m, must be a drive of the lab's vehicle")
     try:
         drive = np.array([[1e-9 * float(row["t_ns"]), float(row["x_m"]), float(row["y_m"]), float(row["yaw_rad"])]
                           for row in rows_of(folder / "vehicle_1.csv")])
@@ -160,9 +188,9 @@ def recorded_drive(folder):
     return pieces, scenario.trims
 
 
-def grade_trim(answer, run):
+def grade_trim(answer, given):
     identify = answer_in(answer, "identify")
-    drives = [recorded_drive(run)] if run else [simulated_drive(seed) for seed in (1, 2, 3)]
+    drives = [recorded_drive(given.run)] if given.run else [simulated_drive(seed) for seed in (1, 2, 3)]
     errors = []
     for pieces, trims in drives:
         for trim, found in sorted(pieces.items()):
@@ -185,7 +213,7 @@ def numbers_in(file, name, value, length):
 
 # 2: a priority rule
 
-def grade_priority(answer, _):
+def grade_priority(answer, given):
     """Six cars on the lab's roads, without right of way: what keeps them apart are their priorities alone."""
     rule = answer_in(answer, "rule")
     if not callable(rule):
@@ -193,53 +221,42 @@ def grade_priority(answer, _):
     runs = []
     for seed in range(1, 7):
         crowd = hlc.load_scenario("lab_cars", cars=6, seed=seed, steps=200, values={"right_of_way": False})
-        runs.append(called(answer, lambda crowd=crowd: hlc.rollout(crowd, priorities=rule)))
-    return [Figure("cars that stand at the end", "", sum(standing_at_end(run) for run in runs), 12, 0, 3),
-            Figure("mean speed", "m/s", np.mean([run.planned_speed_mps.mean() for run in runs]), 0.60, 0.77, 2),
-            Figure("mean cost of a plan", "m^2", np.mean([run.cost_m2.mean() for run in runs]), 0.20, 0.10, 5)]
-
-
-def standing_at_end(run):
-    """Cars that stand in all of the last 5 s."""
-    return int((run.planned_speed_mps[-25:] == 0.0).all(axis=0).sum())
+        folder = given.out / f"draw_{seed}"
+        runs.append(called(answer, lambda crowd=crowd, folder=folder: driven(crowd, folder, priorities=rule)))
+    return [Figure("cars that are stuck at the end", "", stuck(runs), 12, 0, 3),
+            Figure("mean speed", "m/s", mean_over_cars(runs, "driven_speed_mps"), 0.60, 0.78, 2),
+            Figure("mean cost of a plan", "m^2", mean_over_cars(runs, "plan_cost_m2"), 0.20, 0.10, 5)]
 
 
 # 3: an automaton with fewer trims
 
-def drive_with(trims, answer):
-    """A run of the red car with these trims and the rest of the automaton `paper`."""
+def red_car_with(trims, answer, folder):
+    """Alone, with these trims and the rest of the automaton `paper`, which is written to the folder."""
     text = (hlc.data_folder() / "automata" / "paper.yaml").read_text(encoding="utf-8")
     rows = "".join(f"  - {{speed_mps: {speed!r}, steering_rad: {steering!r}}}\n" for speed, steering in trims)
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "trims.yaml"
-        file.write_text(text[:text.index("trims:")] + "trims:\n" + rows + "step_s: 0.2\nintervals: 20\ncriteria: [J2]\n"
-                        "subgraphs:\n  - {name: B, label: J2, trims: all}\n", encoding="utf-8")
-        try:
-            return hlc.drive(hlc.load_scenario("paper_red_alone", values={"automaton": str(file)}))
-        except hlc.Error as refused:  # without the file that the answer has become here
-            raise Invalid(f"{answer}: TRIMS: {str(refused).partition(': ')[2]}") from refused
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / "trims.yaml"
+    file.write_text(text[:text.index("trims:")] + "trims:\n" + rows + "step_s: 0.2\nintervals: 20\ncriteria: [J2]\n"
+                    "subgraphs:\n  - {name: B, label: J2, trims: all}\n", encoding="utf-8")
+    try:
+        return hlc.load_scenario("paper_red_alone", values={"automaton": str(file.absolute())})
+    except hlc.Error as refused:  # without the file that the answer has become here
+        raise Invalid(f"{answer}: TRIMS: {str(refused).partition(': ')[2]}") from refused
 
 
-def lane_error_m(run):
-    """Mean distance of the driven positions from the centre line, a closed polygon."""
-    points_m, corners_m = run.driven[:, 0, :2], run.scenario.vehicles[0].route_m
-    edges_m = np.roll(corners_m, -1, axis=0) - corners_m
-    lengths_m2 = np.maximum((edges_m**2).sum(axis=1), 1e-12)
-    share = np.clip(((points_m[:, None] - corners_m) * edges_m).sum(axis=2) / lengths_m2, 0.0, 1.0)
-    return np.linalg.norm(points_m[:, None] - corners_m - share[..., None] * edges_m, axis=2).min(axis=1).mean()
-
-
-def grade_automaton(answer, _):
+def grade_automaton(answer, given):
     trims = answer_in(answer, "TRIMS")
     if not isinstance(trims, (list, tuple)):
         raise Invalid(f"{answer}: TRIMS = {short(trims)}, must be a list of (speed [m/s], steering [rad])")
     trims = [tuple(numbers_in(answer, f"TRIMS: entry {i} =", one, 2).tolist()) for i, one in enumerate(trims, 1)]
-    given = hlc.drive(hlc.load_scenario("paper_red_alone"))
-    own = drive_with(trims, answer)
-    speed = Figure("mean speed", "m/s", own.planned_speed_mps.mean(), 0.40, 0.99 * given.planned_speed_mps.mean(), 1)
+    papers = hlc.load_scenario("paper_red_alone")
+    given_run = [driven(papers, given.out / "as_given")]
+    own = [driven(red_car_with(trims, answer, given.out), given.out / "answer")]
+    asked_mps, asked_mm = (mean_over_cars(given_run, key) for key in ("driven_speed_mps", "driven_error_mm"))
+    speed = Figure("mean speed", "m/s", mean_over_cars(own, "driven_speed_mps"), 0.40, 0.99 * asked_mps, 1)
     drives = speed.reached > speed.worst  # who stands keeps to the lane with one trim
-    return [Figure("trims", "", len(trims), len(given.scenario.trims), 6, 6, drives),
-            Figure("mean distance from the lane", "mm", 1e3 * lane_error_m(own), 40.0, 1e3 * lane_error_m(given), 3,
+    return [Figure("trims", "", len(trims), len(papers.trims), 6, 6, drives),
+            Figure("mean distance from the lane", "mm", mean_over_cars(own, "driven_error_mm"), 40.0, asked_mm, 3,
                    drives), speed]
 
 
@@ -247,25 +264,9 @@ def grade_automaton(answer, _):
 
 KEYS = ("contouring_weight", "coordination", "coupling", "horizon_steps", "priorities", "reference_rule",
         "right_of_way", "right_of_way_order", "rounds")
-CROSSING_M, HALF_CROSSING_M = np.array([2.25, 2.00]), 0.30  # middle of the lab's map
-STEPS = 600
 
 
-def passages(run):
-    """How often cars have entered the square in the middle of the map."""
-    inside = (np.abs(run.planned[..., :2] - CROSSING_M) < HALF_CROSSING_M).all(axis=2)
-    return int((~inside[:-1] & inside[1:]).sum())
-
-
-def longest_stand_s(run):
-    longest = standing = np.zeros(run.planned.shape[1])
-    for speeds_mps in run.planned_speed_mps:
-        standing = np.where(speeds_mps == 0.0, standing + 1, 0)
-        longest = np.maximum(longest, standing)
-    return run.scenario.step_s * longest.max()
-
-
-def grade_crossing(answer, _):
+def grade_crossing(answer, given):
     values = answer_in(answer, "VALUES")
     if not isinstance(values, dict):
         raise Invalid(f"{answer}: VALUES = {short(values)}, must be a dict of scenario keys")
@@ -274,13 +275,12 @@ def grade_crossing(answer, _):
             raise Invalid(f"{answer}: VALUES: {key!r}, must be one of {', '.join(KEYS)}")
     runs = []
     for seed in (4, 5, 6):
-        ten = called(answer, lambda seed=seed: hlc.load_scenario("lab_cars", cars=10, seed=seed, steps=STEPS,
+        ten = called(answer, lambda seed=seed: hlc.load_scenario("lab_cars", cars=10, seed=seed, steps=600,
                                                                  values=values))
-        runs.append(called(answer, lambda ten=ten: hlc.rollout(ten)))
-    minutes = len(runs) * STEPS * runs[0].scenario.step_s / 60
-    return [Figure("cars that stand at the end", "", sum(standing_at_end(run) for run in runs), 20, 0, 4),
-            Figure("cars through the crossing per minute", "", sum(map(passages, runs)) / minutes, 10, 52.5, 4),
-            Figure("longest stand", "s", max(map(longest_stand_s, runs)), 30, 8, 2)]
+        runs.append(called(answer, lambda ten=ten, seed=seed: driven(ten, given.out / f"draw_{seed}")))
+    return [Figure("cars that are stuck at the end", "", stuck(runs), 20, 0, 4),
+            Figure("mean speed", "m/s", mean_over_cars(runs, "driven_speed_mps"), 0.30, 0.70, 4),
+            Figure("longest wait", "s", max(one["longest_wait_s"] for one in runs), 30, 8, 2)]
 
 
 EXERCISES = {"trim": grade_trim, "priority": grade_priority, "automaton": grade_automaton, "crossing": grade_crossing}
@@ -297,18 +297,33 @@ def arguments():
                         help="the answer, in Python (default: the file EXERCISE.py beside this program)")
     parser.add_argument("--run", type=pathlib.Path, metavar="DIR",
                         help="of `trim`: the drive of vehicle 1 in this run folder (default: three simulated drives)")
+    parser.add_argument("--out", type=pathlib.Path, metavar="DIR",
+                        help="a new or empty folder for the runs: a folder each, with run.html and summary.json "
+                             "(default: they are not kept; `trim` has none)")
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
     given = parser.parse_args()
     if given.run and given.exercise != "trim":
         parser.error(f"--run with {given.exercise}, must be with trim")
+    if given.out and given.exercise == "trim":
+        parser.error("--out with trim, must be with another exercise")
     return given
+
+
+def graded(answer, given):
+    if given.out:
+        if given.out.exists() and not (given.out.is_dir() and not any(given.out.iterdir())):
+            raise Invalid(f"--out = {given.out}, must be a new or empty folder")
+        return EXERCISES[given.exercise](answer, given)
+    with tempfile.TemporaryDirectory() as folder:
+        given.out = pathlib.Path(folder)
+        return EXERCISES[given.exercise](answer, given)
 
 
 def main():
     given = arguments()
     answer = (given.answer or FOLDER / f"{given.exercise}.py").absolute()
     try:
-        figures = EXERCISES[given.exercise](answer, given.run)
+        figures = graded(answer, given)
     except (Invalid, hlc.Error) as refused:
         print(f"check.py: {refused}", file=sys.stderr)
         return 2

@@ -21,6 +21,16 @@ def graded(exercise, *arguments):
     return ended(sys.executable, COURSE / "check.py", exercise, *arguments)
 
 
+def rows_of(exercise, grades):
+    """Of the table in results.md: a row per figure, then the points. Grades: as given, half way, a good answer."""
+    rows = []
+    for name, (_, asked) in grades[0]["figures"].items():
+        reached = [grade["figures"][name][0] for grade in grades]
+        rows.append(" | ".join([name, f"{asked:.4g}", *(f"{one:.4g}" for one in reached)]))
+    rows.append(" | ".join(["points", "10", *(str(grade["points"]) for grade in grades)]))
+    return [f"| {f'`{exercise}`' if i == 0 else ''} | {row} |".replace("|  |", "| |") for i, row in enumerate(rows)]
+
+
 class CourseTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -39,27 +49,47 @@ class CourseTest(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertTrue(done.stdout)
 
-    def test_the_skeletons_get_a_poor_grade(self):
+    def test_skeletons_get_a_poor_grade_answers_all_points_and_results_has_their_figures(self):
+        table = (COURSE / "results.md").read_text(encoding="utf-8")
         for exercise in EXERCISES:
             with self.subTest(exercise=exercise):
-                done = graded(exercise, "--json")
-                self.assertEqual(done.returncode, 1, done.stderr)
-                self.assertLess(json.loads(done.stdout)["points"], 5)
-
-    def test_the_answers_reach_the_goals(self):
-        for exercise in EXERCISES:
-            with self.subTest(exercise=exercise):
-                done = graded(exercise, "--answer", HERE / "answers" / f"{exercise}.py", "--json")
-                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-                self.assertEqual(json.loads(done.stdout)["points"], 10)
+                grades = []
+                for answer in (COURSE, HERE / "answers" / "half_way", HERE / "answers"):
+                    done = graded(exercise, "--answer", answer / f"{exercise}.py", "--json")
+                    self.assertIn(done.returncode, (0, 1), done.stderr)
+                    grades.append(json.loads(done.stdout))
+                    self.assertEqual(grades[-1]["is_reached"], done.returncode == 0)
+                self.assertLess(grades[0]["points"], 5)
+                self.assertTrue(grades[2]["is_reached"])
+                self.assertEqual(grades[2]["points"], 10)
+                self.assertIn("\n".join(rows_of(exercise, grades)), table)
 
     def test_a_figure_that_is_missed_by_little_does_not_get_all_points(self):
-        done = graded("crossing", "--answer", self.written('VALUES = {"right_of_way": True}\n'), "--json")
+        values = 'VALUES = {"right_of_way": True, "contouring_weight": 150}\n'
+        done = graded("crossing", "--answer", self.written(values), "--json")
         self.assertEqual(done.returncode, 1, done.stderr)
         grade = json.loads(done.stdout)
-        reached, asked = grade["figures"]["cars through the crossing per minute"]
+        reached, asked = grade["figures"]["mean speed"]
         self.assertGreater(reached, 0.95 * asked)
         self.assertLess(grade["points"], 10)
+
+    def test_what_an_answer_prints_is_no_part_of_its_grade(self):
+        prints = 'print("read")\ndef identify(*_):\n    print("asked")\n    return 0.5, 0.0\n'
+        done = graded("trim", "--answer", self.written(prints), "--json")
+        self.assertEqual(json.loads(done.stdout)["exercise"], "trim")
+        self.assertIn("asked", done.stderr)
+
+    def test_runs_are_kept_in_a_new_folder_with_the_figures_that_are_graded(self):
+        out = self.folder / "runs"
+        done = graded("automaton", "--out", out, "--json")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        summary = json.loads((out / "answer" / "summary.json").read_text())
+        reached, _ = json.loads(done.stdout)["figures"]["mean speed"]
+        self.assertEqual(summary["vehicles"][0]["driven_speed_mps"]["mean"], reached)
+        self.assertTrue((out / "as_given" / "run.html").is_file())
+        again = graded("automaton", "--out", out)
+        self.assertEqual(again.returncode, 2)
+        self.assertRegex(again.stderr, "--out = .*runs, must be a new or empty folder")
 
     def test_a_car_that_stands_gets_no_points_for_its_few_trims(self):
         done = graded("automaton", "--answer", self.written("TRIMS = [(0.0, 0.0)]\n"), "--json")

@@ -95,7 +95,9 @@ const Arrows kArrows{
       "vehicle_sim/plant", "vehicle_sim/tracking", "planner"}},
     // Without DDS, clocks and threads: a run in Python is a function.
     {"vehicle_sim/python",
-     {"hlc_bridge/messages", "hlc_bridge/result", "vehicle_sim/closed_loop", "planner"}},
+     {"hlc_bridge/messages", "hlc_bridge/result", "hlc_bridge/record",
+      "hlc_bridge/apps/finished_run.hpp", "vehicle_sim/closed_loop",
+      "vehicle_sim/apps/run_folder.hpp", "planner"}},
     {"vehicle_sim/apps",
      {"vehicle_sim", "hlc_bridge/process/shell.hpp", "hlc_bridge/process/log.hpp", "hlc_bridge/dds",
       "hlc_bridge/machine", "hlc_bridge/mcap/recorded_messages.hpp", "hlc_bridge/time",

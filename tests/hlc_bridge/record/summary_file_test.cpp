@@ -32,6 +32,10 @@ result::RunSummary some_summary() {
       .count = 9, .mean = 0.001, .std = 0.002, .p99 = 0.003, .min = 0.0, .max = 0.004};
   vehicle.generated =
       result::Statistics{.count = 9, .mean = 20.5, .std = 1, .p99 = 30, .min = 1, .max = 40};
+  vehicle.driven_speed_mps =
+      result::Statistics{.count = 9, .mean = 0.5, .std = 0.2, .p99 = 0.7, .min = 0, .max = 0.75};
+  vehicle.plan_cost_m2 =
+      result::Statistics{.count = 9, .mean = 0.125, .std = 0.2, .p99 = 1.5, .min = 0, .max = 2.0};
   vehicle.fallback_steps = 3;
   summary.vehicles.push_back(vehicle);
   summary.trace_sha256 = "abc";
@@ -49,12 +53,12 @@ TEST(SummaryFile, HasTheAgreedKeysInOrder) {
                           "joint_gap", "priorities", "rounds", "min_obstacle_distance_m",
                           "obstacles", "guests", "min_guest_distance_m", "touched_by_guests"));
   const auto& vehicle = json["vehicles"][0];
-  EXPECT_THAT(
-      keys(vehicle),
-      ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
-                  "generated_vertices", "expanded_vertices", "planning_time_ms", "fallback_steps",
-                  "deadline_misses", "budget_share", "plans_exceeding_step", "undrivable_steps",
-                  "driven_error_mm", "longest_wait", "arrived_s"));
+  EXPECT_THAT(keys(vehicle),
+              ElementsAre("id", "name", "lap_s", "reference_error_mm", "tracking_error_mm",
+                          "generated_vertices", "expanded_vertices", "planning_time_ms",
+                          "fallback_steps", "deadline_misses", "budget_share",
+                          "plans_exceeding_step", "undrivable_steps", "driven_error_mm",
+                          "longest_wait", "arrived_s", "driven_speed_mps", "plan_cost_m2"));
   EXPECT_THAT(keys(vehicle["reference_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["driven_error_mm"]), ElementsAre("mean", "std", "max"));
   EXPECT_THAT(keys(vehicle["tracking_error_mm"]), ElementsAre("mean", "max"));
@@ -92,6 +96,8 @@ TEST(SummaryFile, UnitsAreThoseOfTheKeys) {
   EXPECT_EQ(vehicle["generated_vertices"]["max"].get<double>(), 40.0);
   EXPECT_EQ(vehicle["lap_s"].get<double>(), 15.5);
   EXPECT_EQ(vehicle["fallback_steps"].get<int>(), 3);
+  EXPECT_EQ(vehicle["driven_speed_mps"].dump(), R"({"mean":0.5,"max":0.75})");
+  EXPECT_EQ(vehicle["plan_cost_m2"].dump(), R"({"mean":0.125,"max":2.0})");
 }
 
 TEST(SummaryFile, NamesWhoWaitedForWhomAndWhoIsStuck) {

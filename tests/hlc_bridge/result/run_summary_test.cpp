@@ -297,6 +297,26 @@ TEST_F(RunSummaryTest, BudgetShareIsThatOfThePlansFound) {
       HasSubstr("plans cut off by the search's budget         up to 30.0 % of a vehicle's\n"));
 }
 
+TEST_F(RunSummaryTest, CostIsThatOfThePlansFoundAndSpeedThatOfTheDriveAtTheSteps) {
+  EXPECT_FALSE(summary().vehicles[0].plan_cost_m2);
+  report(1, 3).report.quality = coordination::PlanQuality::kOptimal;
+  report(1, 3).report.cost_m2 = 0.25;
+  report(1, 4).report.quality = coordination::PlanQuality::kBudget;
+  report(1, 4).report.cost_m2 = 0.75;
+  report(1, 5).report.cost_m2 = 9.0;  // none was found
+  std::vector<StepRecord> rows = step_records(reports_, drives_, facts_);
+  for (StepRecord& row : rows) {
+    const double later_mps = row.step < 30 ? 0.4 : 0.8;
+    row.driven_speed_mps = row.record.report.vehicle == VehicleId{1} ? later_mps : 0.0;
+  }
+  const VehicleSummary red = summarize(description_, facts_, rows, drives_).vehicles[0];
+  ASSERT_TRUE(red.plan_cost_m2);
+  EXPECT_DOUBLE_EQ(red.plan_cost_m2->mean, 0.5);
+  ASSERT_TRUE(red.driven_speed_mps);
+  EXPECT_NEAR(red.driven_speed_mps->mean, 0.6, 1e-12);
+  EXPECT_DOUBLE_EQ(red.driven_speed_mps->max, 0.8);
+}
+
 TEST_F(RunSummaryTest, AVehicleThatIsAtItsGoalAtTheEndHasArrived) {
   EXPECT_FALSE(summary().vehicles[0].arrived_s);
   EXPECT_THAT(summary_table(summary()), Not(HasSubstr("arrived")));

@@ -137,6 +137,49 @@ class RunTest(unittest.TestCase):
         np.testing.assert_array_equal(fork.planned[:11], self.driven.planned[:11])
         self.assertFalse(np.array_equal(fork.planned, self.driven.planned))
 
+    def test_the_folder_of_a_run_is_driven_again_by_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            own = folder / "own"
+            own.mkdir()
+            automaton = own / "own_automaton.yaml"
+            automaton.write_text((hlc.data_folder() / "automata" / "paper.yaml").read_text())
+            three = hlc.load_scenario("paper_three_cars", steps=30,
+                                      values={"reference_speed_mps": 0.6, "automaton": str(automaton)})
+            run = hlc.drive(three, noise_seed=3, out=folder / "run")
+            fork = hlc.replay(run, forks=[hlc.Fork(10, ["speed=1:0.4"])], out=folder / "fork")
+            automaton.unlink()  # the copy counts
+            self.assertEqual(run.summary["trace_sha256"], run.trace_sha256)
+            self.assertEqual(run.summary["vehicles"][1]["driven_speed_mps"]["max"],
+                             max(run.steps[run.steps.vehicle == 2].driven_speed_mps))
+            self.assertTrue((folder / "run" / "run.html").read_text().startswith("<!doctype html>"))
+            again = program("replay", folder / "run")
+            self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+            self.assertIn(run.trace_sha256, again.stdout)
+            again = program("replay", folder / "fork")
+            self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+            self.assertIn(fork.trace_sha256, again.stdout)
+            self.assertNotEqual(fork.trace_sha256, run.trace_sha256)
+
+    def test_a_folder_with_a_rule_in_python_is_not_driven_again_by_another(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = hlc.drive(self.three, priorities=lambda situation: reversed(situation.vehicles), out=folder)
+            self.assertEqual(run.summary["priorities"], "python")
+            again = program("replay", folder)
+            self.assertEqual(again.returncode, 2, again.stdout)
+            self.assertRegex(again.stderr, "python")
+
+    def test_a_folder_with_files_is_refused_and_kept(self):
+        with tempfile.TemporaryDirectory() as folder:
+            note = Path(folder) / "note.txt"
+            note.write_text("mine")
+            for out in (folder, note, note / "below"):
+                with self.subTest(out=out), self.assertRaisesRegex(hlc.Error, f"out = {out}, must be a new or empty"):
+                    hlc.drive(self.three, out=out)
+            self.assertEqual(note.read_text(), "mine")
+        with self.assertRaisesRegex(hlc.Error, "must be one of drive"):
+            _ = self.driven.summary
+
     def test_a_vehicle_that_is_gone_has_no_poses(self):
         fork = hlc.replay(self.driven, forks=[hlc.Fork(10, ["without=3"])])
         self.assertTrue(np.isnan(fork.planned[12:, 2]).all())

@@ -11,6 +11,9 @@ criteria: list[str]
 
 class Error(ValueError): ...
 
+class ForkText:
+    def __init__(self, from_step: int, changes: Sequence[str]) -> None: ...
+
 class ScenarioChoices:
     file: PathLike
     profile: str
@@ -61,7 +64,8 @@ def drive(
     steps: Optional[int],
     priorities: Optional[Callable[..., Sequence[int]]],
     noise_seed: Optional[int],
-    forks: Sequence[tuple[int, Sequence[str]]],
+    forks: Sequence[ForkText],
+    out: Optional[Path],
 ) -> dict[str, Any]: ...
 
 class AutomatonFile:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hlc import _core
-from hlc.files import check_whole
+from hlc.files import PathLike, check_whole
 from hlc.scenarios import MOST_STEPS, PriorityRule, Scenario, core_rule
 
 if TYPE_CHECKING:
@@ -45,6 +47,15 @@ class Run:
     reason: str
     """Of the fault, one line; empty: none."""
     arguments: dict[str, Any] = field(repr=False)
+    folder: Optional[Path] = None
+    """The run's folder; None: it was not written."""
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """The result, which is summary.json of the run's folder; its keys are described in the project's README."""
+        if self.folder is None:
+            raise _core.Error("summary: of a run that was not written, must be one of drive(..., out=FOLDER)")
+        return json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
 
     @property
     def planned(self) -> NDArray[np.float64]:
@@ -118,12 +129,15 @@ def rollout(scenario: Scenario, *, steps: Optional[int] = None, priorities: Opti
 
 
 def drive(scenario: Scenario, *, steps: Optional[int] = None, priorities: Optional[PriorityRule] = None,
-          noise_seed: Optional[int] = None, forks: Sequence[Fork] = ()) -> Run:
+          noise_seed: Optional[int] = None, forks: Sequence[Fork] = (), out: Optional[PathLike] = None) -> Run:
     """Drives a whole run in closed loop, in logical time: controllers, messages, and simulated vehicles with the lab's
     identified dynamics. The result is that of the programs, bit for bit (`trace_sha256`).
 
     noise_seed: the vehicles measure with noise; vehicle i has the seed noise_seed + i. None: exactly
     forks: "what if"; see Fork
+    out: a new or empty folder for the run's files, as run_lab.sh has them, without logs and messages: the page
+        run.html, summary.json, and what the programs need to show, compare, explain and fork the run. They refuse to
+        drive it again if its priorities are a function
     The rest as for `rollout`, locks and errors, too.
     """
     check_whole("steps", steps, 1, MOST_STEPS)
@@ -131,16 +145,19 @@ def drive(scenario: Scenario, *, steps: Optional[int] = None, priorities: Option
     for one in forks:
         check_whole("Fork.from_step", one.from_step, 0, MOST_STEPS)
     found = _core.drive(scenario._core, steps, core_rule(priorities, scenario), noise_seed,
-                        [(one.from_step, list(one.changes)) for one in forks])
+                        [_core.ForkText(one.from_step, list(one.changes)) for one in forks],
+                        None if out is None else Path(out))
     return _run_of(scenario, found,
-                   {"steps": steps, "priorities": priorities, "noise_seed": noise_seed, "forks": tuple(forks)})
+                   {"steps": steps, "priorities": priorities, "noise_seed": noise_seed, "forks": tuple(forks)}, out)
 
 
-def replay(run: Run, *, forks: Sequence[Fork] = (), steps: Optional[int] = None) -> Run:
+def replay(run: Run, *, forks: Sequence[Fork] = (), steps: Optional[int] = None,
+           out: Optional[PathLike] = None) -> Run:
     """Drives a run of `drive` once more: without forks the same, bit for bit, with them a "what if".
 
     forks: added to those of the run
     steps: drive only so many
+    out: as for drive
     """
     if run.trajectory_columns is None:
         raise _core.Error("run: is a rollout, must be one of drive")
@@ -148,11 +165,12 @@ def replay(run: Run, *, forks: Sequence[Fork] = (), steps: Optional[int] = None)
     arguments["forks"] = (*arguments["forks"], *forks)
     if steps is not None:
         arguments["steps"] = steps
-    return drive(run.scenario, **arguments)
+    return drive(run.scenario, **arguments, out=out)
 
 
-def _run_of(scenario: Scenario, found: dict[str, Any], arguments: dict[str, Any]) -> Run:
+def _run_of(scenario: Scenario, found: dict[str, Any], arguments: dict[str, Any],
+            out: Optional[PathLike] = None) -> Run:
     return Run(scenario=scenario, vehicles=tuple(one.id for one in scenario.vehicles),
                trace_sha256=found["trace_sha256"], step_columns=found["steps"],
                trajectory_columns=found.get("trajectories"), exit_code=found.get("exit_code", 0),
-               reason=found.get("reason", ""), arguments=arguments)
+               reason=found.get("reason", ""), arguments=arguments, folder=None if out is None else Path(out))

@@ -3,16 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
+#include "hlc_bridge/record/configuration.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/value_tree.hpp"
 #include "planner/common/yaml_text.hpp"
 
 namespace hlc::python {
 namespace {
+
+constexpr std::array<std::string_view, 3> kFileKeys{"automaton", "lab", "map"};
 
 Value value_of(const py::handle& object, const std::string& path);
 
@@ -119,16 +124,37 @@ class FlowText {
   int line_{1};
 };
 
+Value changed(const std::filesystem::path& file, const py::dict& changes) {
+  Value root = parse_yaml(read_regular_file(file, "a YAML file"), file.string());
+  change(root, changes, "");
+  return root;
+}
+
+std::string text_of(const Value& root) {
+  FlowText flow;
+  flow.add(root);
+  return flow.text() + '\n';
+}
+
 }  // namespace
 
 Node read_with_changes(const std::filesystem::path& file, const py::dict& changes) {
   Node as_it_is = Node::read_yaml(file);
   if (changes.empty()) return as_it_is;
-  Value root = parse_yaml(read_regular_file(file, "a YAML file"), file.string());
-  change(root, changes, "");
-  FlowText flow;
-  flow.add(root);
-  return Node::parse_yaml(flow.text(), file.string());
+  return Node::parse_yaml(text_of(changed(file, changes)), file.string());
+}
+
+std::string text_with_changes(const std::filesystem::path& file, const py::dict& changes) {
+  Value root = changed(file, changes);
+  for (std::size_t i = 0; i < root.keys.size(); ++i) {
+    Value& value = root.values[i];
+    const bool names_file = std::ranges::find(kFileKeys, root.keys[i]) != kFileKeys.end();
+    if (!names_file || value.kind != Value::Kind::kScalar) continue;
+    const std::filesystem::path named =
+        std::filesystem::absolute(file).parent_path() / value.text;  // an absolute one is itself
+    value.text = record::path_between_kept(named).string();
+  }
+  return text_of(root);
 }
 
 }  // namespace hlc::python

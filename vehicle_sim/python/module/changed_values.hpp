@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "planner/common/node.hpp"
 #include "vehicle_sim/python/module/bindings.hpp"
@@ -14,5 +15,11 @@ namespace hlc::python {
 /// @throws std::invalid_argument as Node::read_yaml, or naming the key if its value is of another
 /// type
 [[nodiscard]] Node read_with_changes(const std::filesystem::path& file, const py::dict& changes);
+
+/// The text of such a file for the folder of a run (record::keep_configuration): a map, lab or
+/// automaton is named by the place of its copy there.
+/// @pre read_with_changes throws nothing
+[[nodiscard]] std::string text_with_changes(const std::filesystem::path& file,
+                                            const py::dict& changes);
 
 }  // namespace hlc::python

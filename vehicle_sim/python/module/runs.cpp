@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <cmath>
 #include <cstdint>
@@ -18,6 +19,7 @@
 #include "vehicle_sim/python/module/arrays.hpp"
 #include "vehicle_sim/python/module/bindings.hpp"
 #include "vehicle_sim/python/module/priority_rule.hpp"
+#include "vehicle_sim/python/module/run_files.hpp"
 #include "vehicle_sim/python/module/scenario.hpp"
 
 namespace hlc::python {
@@ -175,13 +177,12 @@ py::dict rollout(const LoadedScenario& loaded, std::optional<std::size_t> steps,
   return run_of(result::step_records(reports, {}, facts));
 }
 
-std::vector<closed_loop::Fork> forks_of(
-    const std::vector<std::pair<std::uint64_t, std::vector<std::string>>>& texts,
-    const scenario::Scenario& scenario) {
+std::vector<closed_loop::Fork> forks_of(const std::vector<record::KeptFork>& texts,
+                                        const scenario::Scenario& scenario) {
   std::vector<closed_loop::Fork> forks;
-  for (const auto& [from, changes] : texts) {
-    closed_loop::Fork fork{.from = from, .changes = {}};
-    for (const std::string& text : changes)
+  for (const record::KeptFork& one : texts) {
+    closed_loop::Fork fork{.from = one.from, .changes = {}};
+    for (const std::string& text : one.set)
       fork.changes.push_back(closed_loop::change_from_text(text, scenario));
     forks.push_back(std::move(fork));
   }
@@ -201,11 +202,13 @@ void check_step(const scenario::Scenario& scenario) {
 
 py::dict drive(const LoadedScenario& loaded, std::optional<std::size_t> steps,
                const py::object& priorities, std::optional<std::uint64_t> noise_seed,
-               const std::vector<std::pair<std::uint64_t, std::vector<std::string>>>& forks) {
+               const std::vector<record::KeptFork>& forks,
+               const std::optional<std::filesystem::path>& out) {
   const PriorityRuleInForce rule(priorities);
   const scenario::Scenario scenario =
       scenario_of(loaded, {.steps = steps, .priorities = priorities});
   check_step(scenario);
+  if (out) make_run_folder(*out);
   closed_loop::ExperimentOptions options{.steps = scenario.steps,
                                          .noise_seed = noise_seed,
                                          .forks = forks_of(forks, scenario),
@@ -222,6 +225,14 @@ py::dict drive(const LoadedScenario& loaded, std::optional<std::size_t> steps,
     const py::gil_scoped_release release;
     experiment = closed_loop::drive_experiment(scenario, options);
     rows = result::step_records(experiment.reports, experiment.drives, experiment.facts);
+    if (out) {
+      write_run(*out, {.scenario = scenario,
+                       .changed_text = loaded.changed_text,
+                       .noise_seed = noise_seed,
+                       .forks = forks,
+                       .experiment = experiment,
+                       .rows = rows});
+    }
   }
   py::dict run = run_of(rows);
   run["trajectories"] = trajectory_columns(
@@ -235,6 +246,8 @@ py::dict drive(const LoadedScenario& loaded, std::optional<std::size_t> steps,
 }  // namespace
 
 void bind_runs(py::module_& module) {
+  py::class_<record::KeptFork>(module, "ForkText")
+      .def(py::init<std::uint64_t, std::vector<std::string>>());
   module.def("rollout", &rollout);
   module.def("drive", &drive);
   module.attr("fork_changes") = closed_loop::kChangeForms;

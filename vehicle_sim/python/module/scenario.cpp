@@ -21,12 +21,13 @@ namespace {
 LoadedScenario load(const scenario::ScenarioChoices& choices, const py::dict& values) {
   const scenario::ScenarioValues read =
       scenario::parse_scenario(read_with_changes(choices.file, values), choices.file);
+  std::string changed_text = values.empty() ? "" : text_with_changes(choices.file, values);
   // Building an automaton solves maneuvers.
   const py::gil_scoped_release release;
   scenario::Scenario scenario =
       scenario::assemble_scenario(read, scenario::load_inputs(read, choices), choices);
   controller::PreparedSubgraph prepared = scenario::prepare_subgraph_of(scenario);
-  return {std::move(scenario), std::move(prepared)};
+  return {std::move(scenario), std::move(prepared), std::move(changed_text)};
 }
 
 py::dict dict_of(const scenario::ScenarioVehicle& vehicle) {

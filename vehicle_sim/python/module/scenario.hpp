@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/python/module/bindings.hpp"
 
@@ -10,6 +12,8 @@ namespace hlc::python {
 struct LoadedScenario {
   scenario::Scenario scenario;
   controller::PreparedSubgraph prepared;
+  /// Of its file with the keys that were changed, for the folder of a run; empty: none was.
+  std::string changed_text;
 };
 
 }  // namespace hlc::python
