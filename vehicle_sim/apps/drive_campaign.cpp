@@ -8,7 +8,7 @@
 
 #include "vehicle_sim/apps/clocks.hpp"
 #include "vehicle_sim/apps/missing_runs.hpp"
-#include "vehicle_sim/apps/run_folder.hpp"
+#include "vehicle_sim/run_folder/run_folder.hpp"
 
 namespace hlc::apps {
 namespace {
@@ -22,7 +22,8 @@ std::filesystem::path folder_of_run(const EvaluationFiles& files, std::size_t ru
 void drive_campaign(const campaign::Campaign& campaign, const DriveChoices& choices,
                     EvaluationFiles& files) {
   const auto is_done = [&](std::size_t run) {
-    return files.has(run) && (!choices.keep_runs || is_whole_run_folder(folder_of_run(files, run)));
+    return files.has(run) &&
+           (!choices.keep_runs || run_folder::is_whole_run_folder(folder_of_run(files, run)));
   };
   const auto drive = [&](std::size_t run) {
     std::optional<campaign::DrivenRun> driven;
@@ -36,8 +37,8 @@ void drive_campaign(const campaign::Campaign& campaign, const DriveChoices& choi
     }
     // Outside the try block: a folder or record that cannot be written is no failure of the run.
     if (choices.keep_runs && driven) {
-      write_run_folder(folder_of_run(files, run), driven->scenario, campaign.plan().noise_seed,
-                       driven->experiment);
+      run_folder::write_run_folder(folder_of_run(files, run), driven->scenario,
+                                   campaign.plan().noise_seed, driven->experiment);
     }
     if (result) {
       files.add(run, *result);

@@ -22,8 +22,8 @@
 #include "planner/apps/progress_line.hpp"
 #include "planner/apps/scenario_name.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
-#include "vehicle_sim/apps/run_folder.hpp"
 #include "vehicle_sim/closed_loop/fault_campaign.hpp"
+#include "vehicle_sim/run_folder/run_folder.hpp"
 
 namespace {
 
@@ -86,7 +86,7 @@ void write_records(const std::filesystem::path& out, const hlc::closed_loop::Fau
   for (const auto& vehicle : the_case.scenario.vehicles) {
     run.facts.vehicle_ids.push_back(vehicle.id.value);
   }
-  hlc::apps::write_records(folder, run);
+  hlc::run_folder::write_records(folder, run);
 }
 
 int replay(const Choices& choices) {

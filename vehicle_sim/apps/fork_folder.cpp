@@ -13,7 +13,7 @@
 #include "hlc_bridge/result/first_difference.hpp"
 #include "planner/common/node.hpp"
 #include "planner/common/text_file.hpp"
-#include "vehicle_sim/apps/run_folder.hpp"
+#include "vehicle_sim/run_folder/run_folder.hpp"
 
 namespace hlc::apps {
 namespace {
@@ -136,7 +136,7 @@ void write_fork(const fs::path& folder, const record::RunFolder& run, std::uint6
     std::vector<record::KeptFork> forks = record::kept_forks(run.folder);
     forks.push_back({.from = from, .set = set});
     write_file(record::forks_file(part), record::forks_yaml(forks));
-    write_records(part, experiment);
+    run_folder::write_records(part, experiment);
     fs::rename(part, folder);
   } catch (const std::exception&) {
     std::error_code error;

@@ -38,9 +38,9 @@ simulated_vehicle::VehicleFleet fleet(const VehicleProcessOptions& options) {
   return simulated_vehicle::VehicleFleet(machines);
 }
 
-std::vector<DriveRecorder> recorders(const VehicleProcessOptions& options,
-                                     const std::string& name) {
-  std::vector<DriveRecorder> recorders;
+std::vector<run_folder::DriveRecorder> recorders(const VehicleProcessOptions& options,
+                                                 const std::string& name) {
+  std::vector<run_folder::DriveRecorder> recorders;
   for (const std::string& file : options.record_files) {
     recorders.emplace_back(
         file, [name](const std::string& line) { process::log(name, machine::warning(line)); },
@@ -96,7 +96,7 @@ struct VehicleProcess::Vehicle {
 
   std::uint8_t id;
   std::string name;
-  DriveRecorder* recorder{};
+  run_folder::DriveRecorder* recorder{};
   dds::Writer<VehicleState> state;
   std::unique_ptr<dds::Reader<TrajectoryCommand>> trajectory;
   // What only the lab's programs send and receive: on the lab's transport; the last two also for a
@@ -158,7 +158,7 @@ int VehicleProcess::run() {
   }
   const int exit_code = shell_.run(*this);
   bool are_complete = true;
-  for (DriveRecorder& recorder : recorders_) {
+  for (run_folder::DriveRecorder& recorder : recorders_) {
     if (const auto incomplete = recorder.close()) {
       perform(machine::warning(*incomplete));
       are_complete = false;

@@ -16,7 +16,7 @@
 #include "hlc_bridge/machine/pacing.hpp"
 #include "hlc_bridge/process/log.hpp"
 #include "hlc_bridge/process/shell.hpp"
-#include "vehicle_sim/apps/drive_recorder.hpp"
+#include "vehicle_sim/run_folder/drive_recorder.hpp"
 #include "vehicle_sim/vehicle/vehicle_fleet.hpp"
 
 namespace hlc::apps {
@@ -36,7 +36,7 @@ struct VehicleProcessOptions {
   bool ticks_by_period{};  ///< the same
   std::chrono::seconds startup_timeout{30};
   std::vector<std::string> record_files;  ///< in the order of the vehicles; empty: no records
-  bool append_record{};                   ///< DriveRecorder
+  bool append_record{};                   ///< run_folder::DriveRecorder
 };
 
 /// Simulated vehicles on the lab domain: the endpoints and the records of a VehicleFleet. In real
@@ -69,7 +69,7 @@ class VehicleProcess {
 
   VehicleProcessOptions options_;
   std::string name_;
-  std::vector<DriveRecorder> recorders_;
+  std::vector<run_folder::DriveRecorder> recorders_;
   process::Shell<simulated_vehicle::VehicleFleet> shell_;
 
   // Readers last: they are destroyed first, and no callback is called after that.

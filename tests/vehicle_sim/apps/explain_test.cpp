@@ -15,7 +15,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "vehicle_sim/apps/run_folder.hpp"
+#include "vehicle_sim/run_folder/run_folder.hpp"
 
 namespace hlc::apps {
 namespace {
@@ -32,7 +32,7 @@ class Explain : public testing::Test {
          .cars = 10,
          .seed = 3});
     experiment() = closed_loop::drive_experiment(scenario, {.steps = 12});
-    write_run_folder(run(), scenario, std::nullopt, experiment());
+    run_folder::write_run_folder(run(), scenario, std::nullopt, experiment());
   }
   static void TearDownTestSuite() { fs::remove_all(run()); }
 
@@ -108,8 +108,8 @@ TEST(ExplainTree, OfACostToGoThatIsNoBoundIsRefusedBeforeAnythingIsWritten) {
   const scenario::Scenario scenario = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml",
        .profile = "2022"});
-  write_run_folder(folder / "run", scenario, std::nullopt,
-                   closed_loop::drive_experiment(scenario, {.steps = 3}));
+  run_folder::write_run_folder(folder / "run", scenario, std::nullopt,
+                               closed_loop::drive_experiment(scenario, {.steps = 3}));
   const std::string run = (folder / "run").string();
   const std::string problems = (folder / "problems").string();
   const std::string command =

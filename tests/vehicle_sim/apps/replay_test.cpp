@@ -14,7 +14,7 @@
 #include "tests/support/folders.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "vehicle_sim/apps/run_folder.hpp"
+#include "vehicle_sim/run_folder/run_folder.hpp"
 
 namespace hlc::apps {
 namespace {
@@ -30,7 +30,7 @@ class Replay : public testing::Test {
   void SetUp() override {
     const scenario::Scenario scenario = scenario::read_scenario(
         {.file = test::source_folder() + "/launch_scripts/scenarios/paper_three_cars.yaml"});
-    write_run_folder(
+    run_folder::write_run_folder(
         run(), scenario, kNoiseSeed,
         closed_loop::drive_experiment(scenario, {.steps = 40, .noise_seed = kNoiseSeed}));
   }

@@ -14,7 +14,7 @@
 #include "hlc_bridge/result/run_description.hpp"
 #include "hlc_bridge/result/run_summary.hpp"
 #include "planner/common/text_file.hpp"
-#include "vehicle_sim/apps/run_folder.hpp"
+#include "vehicle_sim/run_folder/run_folder.hpp"
 
 namespace hlc::python {
 namespace {
@@ -51,7 +51,7 @@ void make_run_folder(const fs::path& folder) {
 }
 
 void write_run(const fs::path& folder, const DrivenRun& run) {
-  apps::write_run_folder(folder, run.scenario, run.noise_seed, run.experiment);
+  run_folder::write_run_folder(folder, run.scenario, run.noise_seed, run.experiment);
   write_configuration(folder, run);
   record::RunFolder content = content_of(folder, run);
   result::RunSummary summary =

@@ -6,7 +6,7 @@
 #include "hlc_bridge/result/run_record.hpp"
 #include "planner/common/growing_file.hpp"
 
-namespace hlc::apps {
+namespace hlc::run_folder {
 
 /// Writes a vehicle's true motion as CSV with the heading `kDriveHeading`, one row per tick: the
 /// pose, and the inputs given then (they act 80 ms later). `hlc_bridge/record/drive_file.hpp` reads
@@ -33,4 +33,4 @@ class DriveRecorder {
   GrowingFile file_;
 };
 
-}  // namespace hlc::apps
+}  // namespace hlc::run_folder

@@ -7,7 +7,7 @@
 #include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/closed_loop/experiment.hpp"
 
-namespace hlc::apps {
+namespace hlc::run_folder {
 
 /// Writes the files that the processes of this run would have written (hlc_bridge/record):
 /// run.json, reports.csv, certificates.csv, vehicle_<id>.csv and configuration/. `summarize` and
@@ -26,4 +26,4 @@ void write_records(const std::filesystem::path& folder, const closed_loop::Exper
 /// True if such a folder exists and is complete.
 [[nodiscard]] bool is_whole_run_folder(const std::filesystem::path& folder);
 
-}  // namespace hlc::apps
+}  // namespace hlc::run_folder

@@ -1,4 +1,4 @@
-#include "vehicle_sim/apps/drive_recorder.hpp"
+#include "vehicle_sim/run_folder/drive_recorder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "tests/support/full_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace hlc::apps {
+namespace hlc::run_folder {
 namespace {
 
 std::string lines_of(const std::filesystem::path& file) {
@@ -97,4 +97,4 @@ TEST_F(DriveRecorderTest, ARowThatCannotBeWrittenIsReportedAndTheCarDrivesOn) {
 }
 
 }  // namespace
-}  // namespace hlc::apps
+}  // namespace hlc::run_folder

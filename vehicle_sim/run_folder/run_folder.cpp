@@ -1,4 +1,4 @@
-#include "vehicle_sim/apps/run_folder.hpp"
+#include "vehicle_sim/run_folder/run_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -15,9 +15,9 @@
 #include "hlc_bridge/record/report_file.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/scenario/engine_choice.hpp"
-#include "vehicle_sim/apps/drive_recorder.hpp"
+#include "vehicle_sim/run_folder/drive_recorder.hpp"
 
-namespace hlc::apps {
+namespace hlc::run_folder {
 namespace {
 
 std::filesystem::path facts_file(const std::filesystem::path& folder) {
@@ -85,4 +85,4 @@ bool is_whole_run_folder(const std::filesystem::path& folder) {
   return std::filesystem::exists(facts_file(folder));
 }
 
-}  // namespace hlc::apps
+}  // namespace hlc::run_folder

@@ -1,4 +1,4 @@
-#include "vehicle_sim/apps/drive_recorder.hpp"
+#include "vehicle_sim/run_folder/drive_recorder.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "hlc_bridge/record/drive_file.hpp"
 #include "planner/common/text_file.hpp"
 
-namespace hlc::apps {
+namespace hlc::run_folder {
 
 namespace {
 
@@ -44,4 +44,4 @@ void DriveRecorder::write(const result::DrivenSample& sample) {
                           sample.command_create));
 }
 
-}  // namespace hlc::apps
+}  // namespace hlc::run_folder
