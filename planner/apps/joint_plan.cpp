@@ -42,12 +42,7 @@ std::string cost_text(const JointPlan& plans) {
 
 JointSolution solve(const scenario::JointProblemFile& file,
                     const joint_search::JointSearchOptions& options) {
-  if (!search::is_admissible(file.search.cost_to_go)) {
-    throw std::invalid_argument(fmt::format(
-        "cost_to_go = {}, must be reachable or straight_line for a joint problem: its optimum is "
-        "bounded by that of each vehicle",
-        search::to_string(file.search.cost_to_go)));
-  }
+  joint_search::check_cost_to_go(file.search.cost_to_go);
   const std::size_t horizon_steps = file.problems.front().horizon_steps();
   const automaton::ReachableSets reachable(*file.subgraph, horizon_steps);
   const auto engine = search::make_search_engine(*file.subgraph, reachable, file.search);

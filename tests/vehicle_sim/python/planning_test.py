@@ -53,8 +53,8 @@ class ProblemTest(unittest.TestCase):
             done = subprocess.run([BUILD / "bin" / "plan_problem", file, "--json"], capture_output=True, text=True,
                                   check=False)
             expected = json.loads(done.stdout)
-            if "trims" not in expected:
-                with self.assertRaisesRegex(hlc.Error, "joint problem"):
+            if "vehicles" in expected:
+                with self.assertRaisesRegex(hlc.Error, "must be of one vehicle .plan_joint_problem"):
                     hlc.plan_problem(file)
                 continue
             with self.subTest(file=file.name):
@@ -64,6 +64,28 @@ class ProblemTest(unittest.TestCase):
                 self.assertEqual((plan.trims + 1).tolist(), expected["trims"])
                 self.assertEqual(plan.poses.tolist(), expected["poses"])
                 self.assertEqual((plan.generated, plan.expanded), (expected["generated"], expected["expanded"]))
+
+    def test_joint_plans_costs_and_counts_are_those_of_the_program(self):
+        file = hlc.data_folder() / "problems" / "two_at_a_crossing.json"
+        done = subprocess.run([BUILD / "bin" / "plan_problem", file, "--json"], capture_output=True, text=True,
+                              check=False)
+        expected = json.loads(done.stdout)
+        found = hlc.plan_joint_problem("two_at_a_crossing")
+        self.assertEqual([found.status, found.cost_m2, found.lower_bound_m2, found.alone_m2, found.constant_order_m2,
+                          found.best_order_m2, found.nodes, found.expanded],
+                         [expected[key] for key in ("status", "cost", "lower_bound", "alone", "constant_order",
+                                                    "best_order", "nodes", "expanded")])
+        self.assertEqual([(one.cost_m2, (one.trims + 1).tolist(), one.poses.tolist()) for one in found.plans],
+                         [(one["cost"], one["trims"], one["poses"]) for one in expected["vehicles"]])
+        self.assertLess(found.cost_m2, found.best_order_m2)
+
+    def test_bad_choices_of_a_joint_problem_are_named(self):
+        with self.assertRaisesRegex(hlc.Error, "parked_car.json: of one vehicle, must be a joint problem"):
+            hlc.plan_joint_problem("parked_car")
+        with self.assertRaisesRegex(hlc.Error, "crossing.json: cost_to_go = 2022, must be reachable or straight_line"):
+            hlc.plan_joint_problem("two_at_a_crossing", engine="best_first", cost_to_go="2022")
+        with self.assertRaisesRegex(hlc.Error, "max_expansions = 0, must be a whole number in 1"):
+            hlc.plan_joint_problem("two_at_a_crossing", max_expansions=0)
 
     def test_another_engine_finds_the_same_cost(self):
         ours = hlc.plan_problem("parked_car")

@@ -15,13 +15,13 @@ from hlc.files import data_folder, scenario_names
 from hlc.learning import Environments, ParallelEnv, StepResult
 from hlc.pareto import Cost, Front, criteria, pareto_front
 from hlc.plots import plot_front, plot_paths, plot_plan, plot_ways
-from hlc.problems import Plan, plan_problem
+from hlc.problems import JointPlan, Plan, plan_joint_problem, plan_problem
 from hlc.runs import FORK_CHANGES, Fork, Run, drive, replay, rollout
 from hlc.scenarios import PriorityRule, Scenario, Situation, Vehicle, load_scenario
 
 __all__ = [
-    "Automaton", "Cost", "Environments", "Error", "FORK_CHANGES", "Fork", "Front", "Maneuver", "ParallelEnv", "Plan",
-    "PriorityRule", "Run", "Scenario", "Situation", "StepResult", "Vehicle", "criteria", "data_folder", "drive",
-    "load_automaton", "load_scenario", "pareto_front", "plan_problem", "plot_front", "plot_paths", "plot_plan",
-    "plot_ways", "replay", "rollout", "scenario_names",
+    "Automaton", "Cost", "Environments", "Error", "FORK_CHANGES", "Fork", "Front", "JointPlan", "Maneuver",
+    "ParallelEnv", "Plan", "PriorityRule", "Run", "Scenario", "Situation", "StepResult", "Vehicle", "criteria",
+    "data_folder", "drive", "load_automaton", "load_scenario", "pareto_front", "plan_joint_problem", "plan_problem",
+    "plot_front", "plot_paths", "plot_plan", "plot_ways", "replay", "rollout", "scenario_names",
 ]

@@ -83,6 +83,13 @@ def plan_problem(
     cost_to_go: Optional[str],
     max_expansions: Optional[int],
 ) -> dict[str, Any]: ...
+def plan_joint_problem(
+    path: PathLike,
+    automaton: Optional[PathLike],
+    engine: Optional[str],
+    cost_to_go: Optional[str],
+    max_expansions: Optional[int],
+) -> dict[str, Any]: ...
 def pareto_front(
     configuration: PathLike,
     from_trim: tuple[float, float],

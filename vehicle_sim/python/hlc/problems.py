@@ -1,4 +1,4 @@
-"""Single planning problems."""
+"""Planning problems of one vehicle, and joint ones of several."""
 
 from __future__ import annotations
 
@@ -52,3 +52,45 @@ def plan_problem(problem: PathLike, *, automaton: Optional[PathLike] = None, eng
     check_whole("max_expansions", max_expansions, 1, 10**12)
     return Plan(**_core.plan_problem(find(problem, "problems", ".json"), automaton, engine, cost_to_go,
                                      max_expansions))
+
+
+@dataclass(frozen=True)
+class JointPlan:
+    """Plans of several vehicles that do not meet, and what planning one after the other costs."""
+
+    status: str
+    """optimal; budget: the best ones found; fallback (no plans)."""
+    reason: str
+    """Of a fallback: infeasible, budget."""
+    cost_m2: Optional[float]
+    """Of all plans together."""
+    lower_bound_m2: Optional[float]
+    """No joint plan costs less."""
+    alone_m2: Optional[float]
+    """What the vehicles' plans cost without each other; None: one has none."""
+    constant_order_m2: Optional[float]
+    """What plans cost that are made in the file's order, each around those before it; None: one finds none."""
+    best_order_m2: Optional[float]
+    """The same in the best of all orders."""
+    plans: list[Plan]
+    """In the order of the file; empty without a plan. `generated`, `expanded`, `status` and `lower_bound_m2` are those
+    of the vehicle's last search alone."""
+    nodes: int
+    """Of the constraint tree, that were taken."""
+    expanded: int
+    """Vertices in all searches after that for the best order."""
+
+
+def plan_joint_problem(problem: PathLike, *, automaton: Optional[PathLike] = None, engine: Optional[str] = None,
+                       cost_to_go: Optional[str] = None, max_expansions: Optional[int] = None) -> JointPlan:
+    """Solves a joint problem of 1 to 8 vehicles exactly, with the plans, costs and counts of the program `plan_problem`.
+
+    problem: a file (JSON), or the name of a shipped one, as "two_at_a_crossing"
+    automaton, engine, cost_to_go: instead of the file's
+    max_expansions: of all searches together; None: 20 000 000
+
+    Raises Error.
+    """
+    check_whole("max_expansions", max_expansions, 1, 10**12)
+    found = _core.plan_joint_problem(find(problem, "problems", ".json"), automaton, engine, cost_to_go, max_expansions)
+    return JointPlan(**{**found, "plans": [Plan(**one) for one in found["plans"]]})

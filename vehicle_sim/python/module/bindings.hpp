@@ -22,7 +22,7 @@ void bind_scenario(py::module_& module);
 void bind_runs(py::module_& module);
 /// `Automaton`, `load_automaton`.
 void bind_automaton(py::module_& module);
-/// `plan_problem`: one planning problem from a file.
+/// `plan_problem`, `plan_joint_problem`: one planning problem from a file.
 void bind_problem(py::module_& module);
 /// `pareto_front`, also with criteria that are Python functions.
 void bind_pareto(py::module_& module);

@@ -6,6 +6,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "planner/automaton/reachable_sets.hpp"
+#include "planner/joint_search/conflict_based_search.hpp"
+#include "planner/joint_search/prioritized.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/joint_problem_file.hpp"
 #include "planner/scenario/problem_file.hpp"
@@ -21,6 +24,12 @@ struct SearchChoices {
   std::optional<std::string> engine;
   std::optional<std::string> cost_to_go;
   std::optional<std::size_t> max_expansions;
+
+  void apply_to(search::SearchOptions& search) const {
+    if (engine) scenario::choose_engine(*engine, search);
+    if (cost_to_go) search.cost_to_go = search::cost_to_go_from_name(*cost_to_go);
+    if (max_expansions) search.max_expansions = *max_expansions;
+  }
 };
 
 scenario::ProblemFile read(const std::filesystem::path& path,
@@ -28,15 +37,11 @@ scenario::ProblemFile read(const std::filesystem::path& path,
                            const SearchChoices& choices) {
   if (scenario::is_joint_problem_file(path)) {
     throw std::invalid_argument(path.string() +
-                                ": a joint problem, must be of one vehicle (plan_problem of the "
-                                "command line plans joint ones)");
+                                ": a joint problem, must be of one vehicle (plan_joint_problem)");
   }
   scenario::ProblemFile file = scenario::read_problem_file(path, automaton);
   try {
-    if (choices.engine) scenario::choose_engine(*choices.engine, file.search);
-    if (choices.cost_to_go)
-      file.search.cost_to_go = search::cost_to_go_from_name(*choices.cost_to_go);
-    if (choices.max_expansions) file.search.max_expansions = *choices.max_expansions;
+    choices.apply_to(file.search);
     scenario::check_can_be_searched(file);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(path.string() + ": " + error.what());
@@ -49,7 +54,7 @@ search::SearchResult solve(const scenario::ProblemFile& file) {
   return search::make_search_engine(*file.subgraph, reachable, file.search)->search(file.problem);
 }
 
-py::dict dict_of(const scenario::ProblemFile& file, const search::SearchResult& result) {
+py::dict dict_of(const search::HorizonProblem& problem, const search::SearchResult& result) {
   py::dict dict;
   dict["status"] = search::to_string(result.status);
   dict["reason"] = search::to_string(result.reason);
@@ -64,15 +69,95 @@ py::dict dict_of(const scenario::ProblemFile& file, const search::SearchResult& 
   dict["poses"] = pose_table(result.poses);
   dict["generated"] = result.generated;
   dict["expanded"] = result.expanded;
-  dict["start"] = pose_table(std::vector<Pose>{file.problem.start}).attr("reshape")(3);
-  dict["reference_m"] = point_table(file.problem.reference_m);
+  dict["start"] = pose_table(std::vector<Pose>{problem.start}).attr("reshape")(3);
+  dict["reference_m"] = point_table(problem.reference_m);
   py::list obstacles;
-  for (const std::vector<ConvexPolygon>& step : file.problem.obstacles_m) {
+  for (const std::vector<ConvexPolygon>& step : problem.obstacles_m) {
     py::list areas;
     for (const ConvexPolygon& one : step) areas.append(point_table(one.vertices_m));
     obstacles.append(areas);
   }
   dict["obstacles_m"] = obstacles;
+  return dict;
+}
+
+py::object cost_or_none(const joint_search::JointPlan& plans) {
+  return plans.empty() ? py::object(py::none())
+                       : py::object(py::float_(joint_search::cost_of(plans)));
+}
+
+struct JointSolution {
+  joint_search::JointPlan alone;
+  joint_search::JointPlan constant_order;
+  joint_search::JointPlan best_order;
+  joint_search::JointSearchResult joint;
+};
+
+JointSolution solve(const scenario::JointProblemFile& file,
+                    const joint_search::JointSearchOptions& options) {
+  const automaton::ReachableSets reachable(*file.subgraph, file.problems.front().horizon_steps());
+  const auto engine = search::make_search_engine(*file.subgraph, reachable, file.search);
+  joint_search::JointProblem problem;
+  for (const search::HorizonProblem& one : file.problems) {
+    problem.push_back({.problem = one, .engine = engine.get()});
+  }
+  JointSolution solution;
+  solution.alone = joint_search::plan_alone(problem);
+  solution.constant_order =
+      joint_search::plan_in_order(problem, joint_search::constant_order(problem.size()));
+  solution.best_order = joint_search::plan_in_best_order(problem);
+  solution.joint = joint_search::search_jointly(problem, options, solution.best_order);
+  return solution;
+}
+
+scenario::JointProblemFile read_joint(const std::filesystem::path& path,
+                                      const std::optional<std::filesystem::path>& automaton,
+                                      const SearchChoices& choices) {
+  if (!scenario::is_joint_problem_file(path)) {
+    throw std::invalid_argument(path.string() +
+                                ": of one vehicle, must be a joint problem (key vehicles)");
+  }
+  scenario::JointProblemFile file = scenario::read_joint_problem_file(path, automaton);
+  try {
+    choices.apply_to(file.search);
+    search::check_search_options(file.search);
+    joint_search::check_cost_to_go(file.search.cost_to_go);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path.string() + ": " + error.what());
+  }
+  return file;
+}
+
+py::dict plan_joint_problem(const std::filesystem::path& path,
+                            const std::optional<std::filesystem::path>& automaton,
+                            const std::optional<std::string>& engine,
+                            const std::optional<std::string>& cost_to_go,
+                            std::optional<std::size_t> max_expansions) {
+  scenario::JointProblemFile file;
+  JointSolution solution;
+  {
+    const py::gil_scoped_release release;
+    file = read_joint(path, automaton, {.engine = engine, .cost_to_go = cost_to_go});
+    joint_search::JointSearchOptions options;
+    if (max_expansions) options.max_expansions = *max_expansions;
+    solution = solve(file, options);
+  }
+  const joint_search::JointSearchResult& joint = solution.joint;
+  const bool has_plan = !joint.plans.empty();
+  py::dict dict;
+  dict["status"] = search::to_string(joint.status);
+  dict["reason"] = search::to_string(joint.reason);
+  dict["cost_m2"] = cost_or_none(joint.plans);
+  dict["lower_bound_m2"] = has_plan ? py::object(py::float_(joint.lower_bound)) : py::none();
+  dict["alone_m2"] = cost_or_none(solution.alone);
+  dict["constant_order_m2"] = cost_or_none(solution.constant_order);
+  dict["best_order_m2"] = cost_or_none(solution.best_order);
+  py::list plans;
+  for (std::size_t i = 0; i < joint.plans.size(); ++i)
+    plans.append(dict_of(file.problems[i], joint.plans[i]));
+  dict["plans"] = plans;
+  dict["nodes"] = joint.nodes;
+  dict["expanded"] = joint.expanded;
   return dict;
 }
 
@@ -89,11 +174,14 @@ py::dict plan_problem(const std::filesystem::path& path,
                 {.engine = engine, .cost_to_go = cost_to_go, .max_expansions = max_expansions});
     result = solve(file);
   }
-  return dict_of(file, result);
+  return dict_of(file.problem, result);
 }
 
 }  // namespace
 
-void bind_problem(py::module_& module) { module.def("plan_problem", &plan_problem); }
+void bind_problem(py::module_& module) {
+  module.def("plan_problem", &plan_problem);
+  module.def("plan_joint_problem", &plan_joint_problem);
+}
 
 }  // namespace hlc::python
