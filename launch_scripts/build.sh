@@ -7,6 +7,7 @@ usage() {
   cat <<'TEXT'
 usage: build.sh [--preset release|debug|asan|tsan|coverage]
                 [--programs | --run_programs | --unit_tests | --thread_tests | --tests_of FOLDER]
+Configures and builds one preset.
   --preset NAME   what to build (default release), into build/NAME
   --programs      only the programs, no tests
   --run_programs  of these only what a run of run_lab.sh starts

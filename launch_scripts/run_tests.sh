@@ -6,6 +6,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 usage() {
   cat <<'TEXT'
 usage: run_tests.sh [FOLDER] [--sanitize] [--long] [--unit] [--filter REGEX] [--coverage]
+Installs what is missing, builds, and runs all tests or those of one folder.
   FOLDER          builds and runs only the tests of this folder and of those below it, named as the sources or as the
                   tests: planner/search or tests/planner/search
   --sanitize      then the same under the address and undefined behaviour sanitizers (preset asan), and the
@@ -27,7 +28,7 @@ cd "$root" || exit 1
 
 # Folders of tests/ with tests, and their parents, named like the sources.
 test_folders() {
-  grep -rlE --include=CMakeLists.txt "hlc_add_test|run_python_tests" tests | while read -r file; do
+  grep -rlE --include=CMakeLists.txt "add_test\(" tests | while read -r file; do
     folder=${file%/CMakeLists.txt}
     while [[ $folder == tests/* ]]; do
       echo "${folder#tests/}"

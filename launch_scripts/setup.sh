@@ -16,7 +16,8 @@ coverage=(gcovr)
 
 usage() {
   echo "usage: setup.sh [--style] [--coverage]"
-  echo "Installs missing packages (as root, or with sudo): ${packages[*]}"
+  echo "Installs the Debian packages that building and running need, as root or with sudo. Returns at once if all are there."
+  echo "  packages: ${packages[*]}"
   echo "  --style     also those for check_style.sh: ${style[*]}"
   echo "  --coverage  also those for run_tests.sh --coverage: ${coverage[*]}"
   echo "Examples:"

@@ -13,6 +13,7 @@ fi
 usage() {
   cat <<'TEXT'
 usage: vehicle.sh --vehicle_ids N --scenario FILE [flags]      (every flag also as --name=value)
+Starts the processes of one vehicle or several, as on one machine of the lab, or restarts one of them during a run.
   --vehicle_ids N,N,...   vehicle, 1 ... 30; several, such as 1,2,3: one process with all simulated cars, one
                           middleware, and a controller each
   --scenario FILE         scenario file, or the name of one in launch_scripts/scenarios

@@ -22,6 +22,7 @@
 #include "hlc_bridge/result/summary_table.hpp"
 #include "hlc_bridge/view/foxglove_channels.hpp"
 #include "hlc_bridge/view/run_page.hpp"
+#include "planner/apps/fitted_table.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -116,7 +117,8 @@ int summarize_run(const Choices& choices) {
     std::cerr << "summarize: no " << missing << ": " << error.what() << '\n';
     if (verdict.exit_code == hlc::kExitGood) verdict.exit_code = hlc::kExitBadInput;
   }
-  std::cout << hlc::result::summary_table(summary) << "\nrun folder: " << run.string() << '\n';
+  std::cout << hlc::apps::fitted_table(hlc::result::summary_table(summary))
+            << "\nrun folder: " << run.string() << '\n';
   if (shown.page) std::cout << "the run as a page: " << hlc::apps::page_file(run).string() << '\n';
   if (shown.messages) std::cout << "its messages: " << (run / "run.mcap").string() << '\n';
   if (!verdict.fault.empty()) std::cerr << "summarize: " << verdict.fault << '\n';

@@ -12,6 +12,7 @@ import importlib.util
 import json
 import math
 import pathlib
+import subprocess
 import sys
 import tempfile
 import traceback
@@ -21,8 +22,10 @@ try:
     import hlc
     import numpy as np
 except ImportError as missing:
-    print(f"check.py: {missing}; must be installed or on PYTHONPATH (vehicle_sim/python/README.md)", file=sys.stderr)
-    sys.exit(2)
+    if not {"-h", "--help", "--version"} & set(sys.argv):  # which need neither
+        print(f"check.py: {missing}, must be installed or on PYTHONPATH (vehicle_sim/python/README.md)",
+              file=sys.stderr)
+        sys.exit(2)
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 STUCK = 6  # exit code of a run that was driven, with cars that were stuck at the end
@@ -286,9 +289,14 @@ def grade_crossing(answer, given):
 EXERCISES = {"trim": grade_trim, "priority": grade_priority, "automaton": grade_automaton, "crossing": grade_crossing}
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {message} (see --help)\n")
+
+
 def arguments():
-    parser = argparse.ArgumentParser(
-        allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = Parser(
+        prog="check.py", allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Grades the answer to an exercise of the course: what was reached, what is asked, the points.",
         epilog="Examples:\n  check.py trim\n  check.py priority --answer my_rule.py --json\n"
                "Exit codes: 0 the goal is reached, 1 not yet, 2 invalid input")
@@ -301,6 +309,9 @@ def arguments():
                         help="a new or empty folder for the runs: a folder each, with run.html and summary.json "
                              "(default: they are not kept; `trim` has none)")
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+    parser.add_argument("--version", action="store_true", help="print the version, and exit")
+    if "--version" in sys.argv:
+        sys.exit(subprocess.call([FOLDER.parent / "version.sh", "check.py"]))
     given = parser.parse_args()
     if given.run and given.exercise != "trim":
         parser.error(f"--run with {given.exercise}, must be with trim")

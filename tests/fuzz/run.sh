@@ -6,6 +6,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 usage() {
   cat <<'TEXT'
 usage: run.sh [--time_s N | --runs N] [--target NAME]
+Feeds the readers of messages, datagrams and files with inputs that libFuzzer varies.
   --time_s N     each target so many seconds (default 60)
   --runs N       each target so many inputs
   --target NAME  only this one

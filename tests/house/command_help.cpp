@@ -106,7 +106,8 @@ std::vector<std::string> all_commands() {
       all.push_back(script_path("launch_scripts/" + entry.path().filename().string()));
     }
   }
-  for (const char* const script : {"tests/verify/verify.sh", "tests/fuzz/run.sh",
+  for (const char* const script : {"launch_scripts/course/check.py", "tests/verify/verify.sh",
+                                   "tests/fuzz/run.sh", "vehicle_sim/report/documents.sh",
                                    "vehicle_sim/report/draw.sh", "vehicle_sim/report/report.sh"}) {
     all.push_back(script_path(script));
   }

@@ -25,6 +25,7 @@
 #include "hlc_bridge/result/run_summary.hpp"
 #include "hlc_bridge/result/summary_table.hpp"
 #include "hlc_bridge/result/trace_hash.hpp"
+#include "planner/apps/fitted_table.hpp"
 #include "planner/apps/flags.hpp"
 #include "vehicle_sim/apps/clocks.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
@@ -108,7 +109,7 @@ void describe_fork(const hlc::record::RunFolder& recorded, const Choices& choice
       hlc::result::summarize(description, experiment.facts, rows, experiment.drives);
   summary.revision = hlc::program_revision();
   summary.host = hlc::record::this_host();
-  std::cout << hlc::result::summary_table(summary);
+  std::cout << hlc::apps::fitted_table(hlc::result::summary_table(summary));
 }
 
 /// Of one vehicle, also those before the start; the last one of a step counts.

@@ -14,25 +14,30 @@ from report.flags import BAD_INPUT, INTERRUPTED, Parser
 from report.page_table import page_table
 
 ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "launch_scripts"
 DOCUMENTS = [ROOT / "vehicle_sim" / name for name in ("EVALUATION.md", "RECONFIGURATION.md")]
 SLOW_DOCUMENTS = [ROOT / "planner/coordination/priorities/README.md"]  # half an hour
-NOT_FOUNDED = 1
+NOT_FOUNDED, NO_PACKAGES = 1, 3
 
 
 def _parse() -> argparse.Namespace:
     parser = Parser(
-        prog="documents",
+        prog="documents.sh",
         description="Makes the tables of documents again: drives each command `build/release/bin/... --out runs/NAME` in\n"
                     "them, replaces each table by that of the rows, and names figures in the words that are in no table.",
-        epilog="Exit codes: 0 done, 1 a figure in the words is in no table, or a command failed, 2 invalid input\n"
+        epilog="Examples:\n  documents.sh\n  documents.sh vehicle_sim/RECONFIGURATION.md --out runs/new_tables\n"
+               "Exit codes: 0 done, 1 a figure in the words is in no table, or a command failed, 2 invalid input\n"
                "or not writable, 3 Python's packages cannot be installed, 130 interrupted.")
     parser.add_argument("documents", metavar="DOCUMENT", nargs="*", type=Path, default=DOCUMENTS,
                         help="Markdown; default: EVALUATION.md and RECONFIGURATION.md of vehicle_sim (10 minutes)")
-    parser.add_argument("--out", metavar="FOLDER", type=Path, default=ROOT / "runs" / "documents",
+    parser.add_argument("--out", metavar="DIR", type=Path, default=ROOT / "runs" / "documents",
                         help="in place of runs/; must not exist (default: runs/documents)")
     how = parser.add_mutually_exclusive_group()
-    how.add_argument("--resume", action="store_true", help="FOLDER exists: go on in it, and keep what is complete")
+    how.add_argument("--resume", action="store_true", help="DIR exists: go on in it, and keep what is complete")
     how.add_argument("--check", action="store_true", help="only name figures in the words that are in no table")
+    parser.add_argument("--version", action="store_true", help="print the version, and exit")
+    if "--version" in sys.argv:
+        sys.exit(subprocess.call([SCRIPTS / "version.sh", parser.prog]))
     return parser.parse_args()
 
 
@@ -65,16 +70,20 @@ def main() -> int:
     flags = _parse()
     try:
         if not flags.check:
+            # The commands make their pages with it: a missing package is noticed before anything is driven.
+            environment = [ROOT / "build/report_environment", ROOT / "vehicle_sim/report/requirements.txt"]
+            if subprocess.call([SCRIPTS / "python_environment.sh", *environment]) != 0:
+                return NO_PACKAGES
             _update(flags.documents, flags.out.resolve(), flags.resume)
         findings = [one for document in flags.documents for one in unfounded(document)]
     except InputError as error:
-        print(f"documents: {error}", file=sys.stderr)
+        print(f"documents.sh: {error}", file=sys.stderr)
         return BAD_INPUT
     except OSError as error:
-        print(f"documents: {error.filename}: {error.strerror}, must be writable", file=sys.stderr)
+        print(f"documents.sh: {error.filename}: {error.strerror}, must be writable", file=sys.stderr)
         return BAD_INPUT
     except KeyboardInterrupt:
-        print("documents: interrupted, go on with --resume", file=sys.stderr)
+        print("documents.sh: interrupted, go on with --resume", file=sys.stderr)
         return INTERRUPTED
     print("\n".join(findings or ["Every figure in the words is in a table, or stated."]))
     return NOT_FOUNDED if findings else 0

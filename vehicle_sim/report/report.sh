@@ -8,6 +8,7 @@ source "$here/environment.sh"
 usage() {
   cat <<'TEXT'
 usage: report.sh OUT
+Makes tables, statistics and figures of the rows that evaluate or compare_priorities wrote.
   OUT  a folder of evaluate or compare_priorities, with campaign.json, runs.csv and what belongs to them
 Writes OUT/report.md, the page, and OUT/report/ with the data of every table and the figures.
 Python's packages are installed once, into build/report_environment of the sources, or the user's cache (hlc/report_environment).

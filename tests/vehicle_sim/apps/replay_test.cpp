@@ -7,6 +7,7 @@
 #include <fstream>
 #include <ostream>
 #include <regex>
+#include <sstream>
 #include <string>
 
 #include "hlc_bridge/record/run_folder.hpp"
@@ -96,6 +97,24 @@ TEST_F(Replay, OfAForkIsThatForkAndForksMayBeForked) {
   EXPECT_THAT(compared.output, HasSubstr("forks: null and from step 10 priorities=3,2 speed=1:0.5, "
                                          "from step 20 without=2 obstacle=0.1,0.1,0.1,0.1,0.5 "
                                          "route=3:green"));
+}
+
+TEST_F(Replay, TheTableOfTheResultIsNoWiderThanTheTerminal) {
+  constexpr std::size_t kColumns = 60;
+  for (const std::string& command :
+       {"summarize " + run().string(),
+        "replay " + run().string() + " --from_step 10 --set priorities=3"}) {
+    const auto [exit_code, output] = test::run_program(command, "COLUMNS=60 ");
+    EXPECT_EQ(exit_code, 0) << output;
+    EXPECT_THAT(output, HasSubstr("\n id        [ms]    p99    max   error [mm] fallb.   late\n"));
+    std::istringstream lines(output.substr(output.find("paper_three_cars: ")));
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_one_word = line.find(' ', line.find_first_not_of(' ')) == std::string::npos;
+      EXPECT_TRUE(line.size() <= kColumns || is_one_word ||
+                  line.find(folder_.path().string()) != std::string::npos)
+          << line;
+    }
+  }
 }
 
 TEST_F(Replay, AForkWithoutAVehicleIsAWholeRun) {

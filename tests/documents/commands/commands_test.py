@@ -1,0 +1,169 @@
+"""The commands of the READMEs run as they stand, in their order, in a copy of the project.
+
+Every line of a block of code that calls a program is run, or in NOT_RUN with the reason. Some do less than they would:
+the flags of SHORTER replace theirs or are appended.
+"""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+ROOT = FOLDER.parents[2]
+BUILD = pathlib.Path(os.environ.get("HLC_BUILD", ROOT / "build/release"))
+sys.path[:0] = [str(FOLDER.parent), str(ROOT / "launch_scripts")]
+
+import command_lines  # noqa: E402
+import program_help  # noqa: E402
+from markdown import Document  # noqa: E402
+
+DOCUMENTS = ["README.md", "launch_scripts/RUNS.md", "planner/YOUR_CAR.md",
+             *sorted(str(file.relative_to(ROOT)) for top in ("launch_scripts", "planner", "vehicle_sim", "hlc_bridge")
+                     for file in [*(ROOT / top).glob("README.md"), *(ROOT / top).glob("*/README.md")])]
+OTHERS = {"apt", "cmake", "cpack", "export", "ffmpeg", "kill", "ninja", "pip", "python3", "sbatch"}  # programs that are not ours
+
+# Beginnings of lines that are not run, and why.
+NOT_RUN = {
+    "./launch_scripts/run_lab.sh  ": "builds; its run is the one of the picture below it",
+    "./launch_scripts/run_tests.sh": "runs this test",
+    "launch_scripts/setup.sh": "the machine that builds has had it",
+    "launch_scripts/build.sh": "the programs are those that it has built",
+    "./launch_scripts/run_lab.sh --map ../shared": "the lab's own map is no part of the project",
+    "./launch_scripts/run_lab.sh --commonroad FILE.xml": "CommonRoadRun of tests/integration has files",
+    "run_lab.sh --commonroad FILE.xml": "likewise",
+    "import_commonroad --commonroad FILE.xml": "likewise",
+    "launch_scripts/run_lab.sh --scenario on_request": "two terminals; Reconfiguration of tests/integration",
+    "build/release/bin/automaton_request": "likewise",
+    "automaton_request": "likewise",
+    "vehicle_sim/report/documents.sh": "ten minutes; tests/vehicle_sim/report checks the tables",
+    "sbatch": "needs Slurm; evaluate --shard is tested in tests/vehicle_sim/apps",
+    "build/release/bin/evaluate --merge runs/town": "likewise",
+    "tests/verify/verify.sh": "verify_runs does",
+    "launch_scripts/vehicle.sh --vehicle_ids": "two terminals; Scripts and KilledProcess of tests/integration",
+    "build/release/bin/lab_control": "likewise",
+    "build/release/bin/summarize --run runs/by_hand": "likewise",
+    "launch_scripts/run_lab.sh --simulated_time=false --on_death continue": "KilledProcess of tests/integration",
+    "kill -9": "likewise",
+    "cmake --install": "tests/install",
+    "cpack": "tests/install",
+    "apt install": "tests/install",
+    "hlc-": "tests/install",
+    "cmake --preset release && ninja": "the programs are those that it has built",
+    "launch_scripts/python_environment.sh": "this test runs in what it makes",
+    "export PATH": "this test runs so",
+    "python3 -m venv": "the package of the build folder is used, not one that is compiled again",
+    "pip install": "likewise",
+    "build/release/bin/evaluate --sweep": "minutes to hours; tests/vehicle_sim/campaign drives sweeps",
+    "python3 -c": "tests/verify reads recordings by the same package",
+    "view": "runs until it is stopped; View of tests/integration",
+    "launch_scripts/run_lab.sh --security security": "SecuredRun of tests/integration",
+    "launch_scripts/run_lab.sh --scenario passenger_cars_in_town --view": "a browser; View of tests/integration",
+    "build/release/bin/choose_trims runs/<your run>": "a drive of the user's own",
+}
+# Beginnings of lines that do less here. run_lab.sh builds nothing, and drives 20 steps where it keeps no folder.
+SHORTER = {
+    "build/release/bin/evaluate": {"--starts": "1"},
+    "build/release/bin/compare_priorities": {"--cars": "5", "--draws": "1"},
+    "build/release/bin/draw_run runs/my_run --video run.mp4": {"--rate": "5"},
+    "build/release/bin/fault_simulator": {"--runs": "20"},
+}
+# Exit codes other than 0, as the documents state.
+EXIT_CODES = {
+    "build/release/bin/compare ": 1,  # the two runs differ
+    "python3 launch_scripts/course/check.py": 1,  # of a skeleton: not yet
+}
+NEEDED = {"draw_run": ("chromium", "ffmpeg"), "ffmpeg": ("chromium", "ffmpeg")}  # without which the tests of the program itself are skipped, too
+
+
+def lines_of(document: Document) -> list[tuple[int, str]]:
+    """Number and text of the lines that call programs."""
+    ours = set(program_help.programs()) | {"hlc-rollout", "hlc-run-lab"}
+    return [(block.line + i, line) for block in document.blocks if block.language in command_lines.SHELLS
+            for i, line in enumerate(block.lines) for words in command_lines.split(line)[:1]
+            if words[0] in ours | OTHERS or re.fullmatch(r"(\./)?[\w/]+\.(sh|py)|build/release/bin/\w+", words[0])]
+
+
+def reason_not_to_run(line: str) -> str | None:
+    return next((why for begin, why in NOT_RUN.items() if (line + "  ").startswith(begin)), None)
+
+
+def shortened(line: str) -> str:
+    """The command without its comment, with the flags of SHORTER instead of its own."""
+    line = command_lines.without_comment(line)
+    flags = next((dict(flags) for begin, flags in SHORTER.items() if line.startswith(begin)), {})
+    if "run_lab.sh" in line.split()[0]:
+        flags |= {"--no_build": ""} | ({} if " --out " in line or "--steps" in line else {"--steps": "20"})
+    command, *rest = line.split(" && ")
+    for flag, value in flags.items():
+        command, count = re.subn(rf"{flag}[ =]\S+", f"{flag} {value}", command)
+        command += "" if count else f" {flag} {value}".rstrip()
+    return " && ".join([command, *rest])
+
+
+class Commands(unittest.TestCase):
+    def copy(self) -> pathlib.Path:
+        folder = tempfile.TemporaryDirectory(prefix="hlc_documents_")
+        self.addCleanup(folder.cleanup)
+        copy = pathlib.Path(folder.name)
+        listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
+        for name in filter(None, listed.stdout.split("\0")):
+            (copy / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, copy / name)
+        (copy / "build/release").mkdir(parents=True)
+        (copy / "runs").mkdir()
+        (copy / "build/release/bin").symlink_to(BUILD / "bin")
+        (copy / "build/report_environment").symlink_to(ROOT / "build/report_environment")
+        return copy
+
+    def run_document(self, name: str) -> pathlib.Path:
+        copy = self.copy()
+        path = f"{pathlib.Path(sys.executable).parent}:{copy}/build/release/bin:{os.environ['PATH']}"
+        for number, line in lines_of(Document(ROOT / name)):
+            needed = NEEDED.get(pathlib.Path(line.split()[0]).name, ())
+            if reason_not_to_run(line) or not all(map(shutil.which, needed)):
+                continue
+            command = shortened(line).replace("/tmp/", f"{copy}/")
+            with self.subTest(line=f"{name}:{number}"):
+                done = subprocess.run(["bash", "-c", command], cwd=copy, env=os.environ | {"PATH": path}, timeout=120,
+                                      check=False, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                      stderr=subprocess.STDOUT, text=True)
+                expected = next((code for begin, code in EXIT_CODES.items() if line.startswith(begin)), 0)
+                self.assertEqual(done.returncode, expected, f"{command}\n{done.stdout[-3000:]}")
+        return copy
+
+
+class MainDocument(Commands):
+    def test_commands_run_and_drive_the_run_in_the_picture(self):
+        copy = self.run_document("README.md")
+        shown = re.search(r"trace_sha256 of the run in the picture: (\w+)", (ROOT / "README.md").read_text())[1]
+        driven = json.loads((copy / "runs/my_run/summary.json").read_text())["trace_sha256"]
+        self.assertEqual(driven, shown, "the picture of README.md shows another run: its commands are in the README")
+
+    def test_picture_is_small(self):
+        self.assertLess((ROOT / "launch_scripts/pictures/first_run.gif").stat().st_size, 600_000)
+
+    def test_every_reason_not_to_run_a_line_is_needed(self):
+        lines = [line for name in DOCUMENTS for _, line in lines_of(Document(ROOT / name))]
+        for begin in NOT_RUN:
+            self.assertTrue(any((line + "  ").startswith(begin) for line in lines), begin)
+
+
+class OtherDocuments(Commands):
+    """A test for each is added below."""
+
+
+def _test_of(name: str):
+    return lambda self: self.run_document(name)
+
+
+for _name in DOCUMENTS[1:]:
+    if lines_of(Document(ROOT / _name)):
+        setattr(OtherDocuments, "test_" + re.sub(r"\W", "_", _name.removesuffix(".md")), _test_of(_name))
+
+if __name__ == "__main__":
+    unittest.main()
