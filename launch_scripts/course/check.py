@@ -28,6 +28,7 @@ except ImportError as missing:
         sys.exit(2)
 
 FOLDER = pathlib.Path(__file__).resolve().parent
+MOST_POINTS = 10  # of each exercise
 STUCK = 6  # exit code of a run that was driven, with cars that were stuck at the end
 
 
@@ -92,7 +93,7 @@ def called(file, function, *arguments):
     try:
         with contextlib.redirect_stdout(sys.stderr):  # the grade alone is printed
             return function(*arguments)
-    except Invalid:
+    except (Invalid, Failed):
         raise
     except hlc.Error as refused:
         raise Invalid(f"{file}: {refused}") from refused
@@ -104,20 +105,29 @@ def called(file, function, *arguments):
         raise Invalid(f"{file}:{lines[-1] if lines else 1}: raised {raised}") from error
 
 
+class Failed(Exception):
+    """One line: what happened in a run, for which there are no points."""
+
+
 def driven(scenario, folder, **choices):
     """The content of summary.json of a run in closed loop, which is written to the folder."""
-    run = hlc.drive(scenario, out=folder, **choices)
+    try:
+        run = hlc.drive(scenario, out=folder, **choices)
+    except hlc.Error as refused:
+        if str(folder) in str(refused):  # a file that cannot be written is no fault of the answer
+            raise Invalid(str(refused)) from refused
+        raise
     if run.exit_code not in (0, STUCK):
-        raise Invalid(f"{folder}: {run.reason}, must be a run that is driven to its end")
+        raise Failed(f"{folder.name}: {run.reason}")
     if run.summary["collisions"] > 0:
-        raise Invalid(f"{folder}: {run.summary['collisions']} collisions, must be a run without")
+        raise Failed(f"{folder.name}: {run.summary['collisions']} collisions")
     return run.summary
 
 
-def mean_over_cars(summaries, key):
-    """Of a figure with a mean for every car, over all cars of all runs; of those that have it."""
+def mean_over_cars(summaries, key, worst):
+    """Of a figure with a mean for every car, over all cars of all runs. worst: of a car that has none."""
     means = [car[key]["mean"] for one in summaries for car in one["vehicles"]]
-    return np.mean([mean for mean in means if mean is not None] or [math.inf])
+    return float(np.mean([worst if mean is None else mean for mean in means]))
 
 
 def stuck(summaries):
@@ -216,6 +226,9 @@ def numbers_in(file, name, value, length):
 
 # 2: a priority rule
 
+WITHOUT_RIGHT_OF_WAY = {"right_of_way": False, "contouring_weight": 150}
+
+
 def grade_priority(answer, given):
     """Six cars on the lab's roads, without right of way: what keeps them apart are their priorities alone."""
     rule = answer_in(answer, "rule")
@@ -223,12 +236,12 @@ def grade_priority(answer, given):
         raise Invalid(f"{answer}: rule = {short(rule)}, must be a function")
     runs = []
     for seed in range(1, 7):
-        crowd = hlc.load_scenario("lab_cars", cars=6, seed=seed, steps=200, values={"right_of_way": False})
+        crowd = hlc.load_scenario("lab_cars", cars=6, seed=seed, steps=200, values=WITHOUT_RIGHT_OF_WAY)
         folder = given.out / f"draw_{seed}"
         runs.append(called(answer, lambda crowd=crowd, folder=folder: driven(crowd, folder, priorities=rule)))
     return [Figure("cars that are stuck at the end", "", stuck(runs), 12, 0, 3),
-            Figure("mean speed", "m/s", mean_over_cars(runs, "driven_speed_mps"), 0.60, 0.78, 2),
-            Figure("mean cost of a plan", "m^2", mean_over_cars(runs, "plan_cost_m2"), 0.20, 0.10, 5)]
+            Figure("mean speed", "m/s", mean_over_cars(runs, "driven_speed_mps", 0.0), 0.60, 0.78, 2),
+            Figure("mean cost of a plan", "m^2", mean_over_cars(runs, "plan_cost_m2", 10.0), 0.20, 0.10, 5)]
 
 
 # 3: an automaton with fewer trims
@@ -255,12 +268,12 @@ def grade_automaton(answer, given):
     papers = hlc.load_scenario("paper_red_alone")
     given_run = [driven(papers, given.out / "as_given")]
     own = [driven(red_car_with(trims, answer, given.out), given.out / "answer")]
-    asked_mps, asked_mm = (mean_over_cars(given_run, key) for key in ("driven_speed_mps", "driven_error_mm"))
-    speed = Figure("mean speed", "m/s", mean_over_cars(own, "driven_speed_mps"), 0.40, 0.99 * asked_mps, 1)
+    asked_mps, speed_mps = (mean_over_cars(runs, "driven_speed_mps", 0.0) for runs in (given_run, own))
+    asked_mm, distance_mm = (mean_over_cars(runs, "driven_error_mm", 1000.0) for runs in (given_run, own))
+    speed = Figure("mean speed", "m/s", speed_mps, 0.40, 0.99 * asked_mps, 1)
     drives = speed.reached > speed.worst  # who stands keeps to the lane with one trim
     return [Figure("trims", "", len(trims), len(papers.trims), 6, 6, drives),
-            Figure("mean distance from the lane", "mm", mean_over_cars(own, "driven_error_mm"), 40.0, asked_mm, 3,
-                   drives), speed]
+            Figure("mean distance from the lane", "mm", distance_mm, 40.0, asked_mm, 3, drives), speed]
 
 
 # 4: ten cars through a crossing
@@ -282,7 +295,7 @@ def grade_crossing(answer, given):
                                                                  values=values))
         runs.append(called(answer, lambda ten=ten, seed=seed: driven(ten, given.out / f"draw_{seed}")))
     return [Figure("cars that are stuck at the end", "", stuck(runs), 20, 0, 4),
-            Figure("mean speed", "m/s", mean_over_cars(runs, "driven_speed_mps"), 0.30, 0.70, 4),
+            Figure("mean speed", "m/s", mean_over_cars(runs, "driven_speed_mps", 0.0), 0.30, 0.70, 4),
             Figure("longest wait", "s", max(one["longest_wait_s"] for one in runs), 30, 8, 2)]
 
 
@@ -333,19 +346,24 @@ def graded(answer, given):
 def main():
     given = arguments()
     answer = (given.answer or FOLDER / f"{given.exercise}.py").absolute()
+    figures, failure = [], ""
     try:
         figures = graded(answer, given)
-    except (Invalid, hlc.Error) as refused:
+    except Failed as failed:
+        failure = str(failed)
+    except (Invalid, hlc.Error, OSError) as refused:
         print(f"check.py: {refused}", file=sys.stderr)
         return 2
-    is_reached = all(one.is_reached for one in figures)
-    earned, most = sum(one.earned for one in figures), sum(one.points for one in figures)
+    is_reached = not failure and all(one.is_reached for one in figures)
+    earned = sum(one.earned for one in figures)
     if given.json:
-        print(json.dumps({"exercise": given.exercise, "points": earned, "of": most, "is_reached": is_reached,
+        print(json.dumps({"exercise": given.exercise, "points": earned, "of": MOST_POINTS, "is_reached": is_reached,
+                          "failure": failure,
                           "figures": {one.name: [float(one.reached), float(one.asked)] for one in figures}}))
     else:
-        print(f"{given.exercise}: {answer}", *(one.line() for one in figures), sep="\n")
-        print(f"grade: {earned} of {most} points, " + ("the goal is reached" if is_reached else "not yet"))
+        lines = [f"  no points, because of {failure}"] if failure else [one.line() for one in figures]
+        print(f"{given.exercise}: {answer}", *lines, sep="\n")
+        print(f"grade: {earned} of {MOST_POINTS} points, " + ("the goal is reached" if is_reached else "not yet"))
     return 0 if is_reached else 1
 
 

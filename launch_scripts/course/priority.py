@@ -21,6 +21,7 @@ def rule(situation: hlc.Situation):
 
 
 if __name__ == "__main__":
-    run = hlc.rollout(hlc.load_scenario("lab_cars", cars=6, seed=3, steps=200, values={"right_of_way": False}),
+    run = hlc.rollout(hlc.load_scenario("lab_cars", cars=6, seed=3, steps=200,
+                                        values={"right_of_way": False, "contouring_weight": 150}),
                       priorities=rule)
     print(f"draw 3: {run.planned_speed_mps.mean():.3f} m/s, {run.cost_m2.mean():.3f} m^2 for a plan")

@@ -79,6 +79,12 @@ class CourseTest(unittest.TestCase):
         self.assertEqual(json.loads(done.stdout)["exercise"], "trim")
         self.assertIn("asked", done.stderr)
 
+    def test_an_output_that_cannot_be_written_is_no_fault_of_the_answer(self):
+        file = self.written("TRIMS = [(0.0, 0.0)]\n")
+        done = graded("automaton", "--answer", file, "--out", file / "below")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertRegex(done.stderr, r"\A[^\n]*below[^\n]*\n\Z")
+
     def test_runs_are_kept_in_a_new_folder_with_the_figures_that_are_graded(self):
         out = self.folder / "runs"
         done = graded("automaton", "--out", out, "--json")
@@ -87,6 +93,8 @@ class CourseTest(unittest.TestCase):
         reached, _ = json.loads(done.stdout)["figures"]["mean speed"]
         self.assertEqual(summary["vehicles"][0]["driven_speed_mps"]["mean"], reached)
         self.assertTrue((out / "as_given" / "run.html").is_file())
+        replay = ended(Path(os.environ["HLC_BUILD"]) / "bin" / "replay", out / "answer")
+        self.assertEqual(replay.returncode, 0, replay.stderr)
         again = graded("automaton", "--out", out)
         self.assertEqual(again.returncode, 2)
         self.assertRegex(again.stderr, "--out = .*runs, must be a new or empty folder")

@@ -24,6 +24,8 @@ std::filesystem::path facts_file(const std::filesystem::path& folder) {
   return folder / "run.json";
 }
 
+}  // namespace
+
 void write_configuration(const std::filesystem::path& folder, const scenario::Scenario& scenario,
                          std::optional<std::uint64_t> noise_seed) {
   record::keep_configuration(folder, scenario::files_of(scenario));
@@ -49,8 +51,6 @@ void write_configuration(const std::filesystem::path& folder, const scenario::Sc
       record::flags_yaml(choices) +
           fmt::format("noise_seed: {}\n", noise_seed ? fmt::to_string(*noise_seed) : "null"));
 }
-
-}  // namespace
 
 void write_run_folder(const std::filesystem::path& folder, const scenario::Scenario& scenario,
                       std::optional<std::uint64_t> noise_seed,

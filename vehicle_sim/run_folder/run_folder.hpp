@@ -18,6 +18,11 @@ void write_run_folder(const std::filesystem::path& folder, const scenario::Scena
                       std::optional<std::uint64_t> noise_seed,
                       const closed_loop::Experiment& experiment);
 
+/// Its configuration/ only, with copies of the files as they are now.
+/// @throws std::runtime_error naming the file that cannot be read or written
+void write_configuration(const std::filesystem::path& folder, const scenario::Scenario& scenario,
+                         std::optional<std::uint64_t> noise_seed);
+
 /// Its records only: run.json, reports.csv, certificates.csv and vehicle_<id>.csv, in a folder that
 /// exists.
 /// @throws std::runtime_error naming the file that cannot be written

@@ -161,20 +161,45 @@ class RunTest(unittest.TestCase):
             self.assertIn(fork.trace_sha256, again.stdout)
             self.assertNotEqual(fork.trace_sha256, run.trace_sha256)
 
-    def test_a_folder_with_a_rule_in_python_is_not_driven_again_by_another(self):
+    def test_a_folder_with_a_rule_in_python_is_read_by_no_program(self):
         with tempfile.TemporaryDirectory() as folder:
             run = hlc.drive(self.three, priorities=lambda situation: reversed(situation.vehicles), out=folder)
             self.assertEqual(run.summary["priorities"], "python")
-            again = program("replay", folder)
-            self.assertEqual(again.returncode, 2, again.stdout)
-            self.assertRegex(again.stderr, "python")
+            self.assertTrue((Path(folder) / "run.html").is_file())
+            for arguments in (("replay", folder), ("compare", folder, folder), ("summarize", folder)):
+                again = program(*arguments)
+                self.assertEqual(again.returncode, 2, again.stdout)
+                self.assertRegex(again.stderr, "priorities.* = python, must be")
+
+    def test_the_folder_of_a_run_that_fails_is_empty(self):
+        def fails(_):
+            raise KeyError("mine")
+
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(KeyError):
+                hlc.drive(self.three, priorities=fails, out=folder)
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_a_track_that_was_changed_is_that_of_the_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            track = Path(folder) / "own_track.csv"
+            track.write_text("t_s,x_m,y_m\n0,1.3,2.9\n100,1.3,2.9\n")
+            guest = {"id": 30, "start": {"x_m": 1.3, "y_m": 2.9, "heading_rad": 0.0}, "drive": "track",
+                     "track": str(track), "limits": {"speed_mps": 1.0, "acceleration_mps2": 1.5,
+                                                     "deceleration_mps2": 3.0, "curvature_per_m": 4.0}}
+            run = hlc.drive(hlc.load_scenario("lab_guest", cars=3, steps=10, values={"guests": [guest]}),
+                            out=Path(folder) / "run")
+            track.unlink()
+            again = program("replay", Path(folder) / "run")
+            self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
+            self.assertIn(run.trace_sha256, again.stdout)
 
     def test_a_folder_with_files_is_refused_and_kept(self):
         with tempfile.TemporaryDirectory() as folder:
             note = Path(folder) / "note.txt"
             note.write_text("mine")
             for out in (folder, note, note / "below"):
-                with self.subTest(out=out), self.assertRaisesRegex(hlc.Error, f"out = {out}, must be a new or empty"):
+                with self.subTest(out=out), self.assertRaisesRegex(hlc.Error, f"out = {out}, must be a (new|folder that can)"):
                     hlc.drive(self.three, out=out)
             self.assertEqual(note.read_text(), "mine")
         with self.assertRaisesRegex(hlc.Error, "must be one of drive"):

@@ -52,10 +52,14 @@ class Run:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """The result, which is summary.json of the run's folder; its keys are described in the project's README."""
+        """The result: summary.json of the run's folder (hlc_bridge/record/OUTPUT.md of the project has its keys)."""
         if self.folder is None:
             raise _core.Error("summary: of a run that was not written, must be one of drive(..., out=FOLDER)")
-        return json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        file = self.folder / "summary.json"
+        try:
+            return json.loads(file.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise _core.Error(f"{file}: {error}, must be the summary of this run") from error
 
     @property
     def planned(self) -> NDArray[np.float64]:
@@ -136,8 +140,8 @@ def drive(scenario: Scenario, *, steps: Optional[int] = None, priorities: Option
     noise_seed: the vehicles measure with noise; vehicle i has the seed noise_seed + i. None: exactly
     forks: "what if"; see Fork
     out: a new or empty folder for the run's files, as run_lab.sh has them, without logs and messages: the page
-        run.html, summary.json, and what the programs need to show, compare, explain and fork the run. They refuse to
-        drive it again if its priorities are a function
+        run.html, summary.json, and what the programs need to show, compare, explain and fork the run. Of a run whose
+        priorities are a function the programs read none of it
     The rest as for `rollout`, locks and errors, too.
     """
     check_whole("steps", steps, 1, MOST_STEPS)
@@ -173,4 +177,4 @@ def _run_of(scenario: Scenario, found: dict[str, Any], arguments: dict[str, Any]
     return Run(scenario=scenario, vehicles=tuple(one.id for one in scenario.vehicles),
                trace_sha256=found["trace_sha256"], step_columns=found["steps"],
                trajectory_columns=found.get("trajectories"), exit_code=found.get("exit_code", 0),
-               reason=found.get("reason", ""), arguments=arguments, folder=None if out is None else Path(out))
+               reason=found.get("reason", ""), arguments=arguments, folder=None if out is None else Path(out).absolute())

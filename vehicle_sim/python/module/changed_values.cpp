@@ -136,6 +136,16 @@ std::string text_of(const Value& root) {
   return flow.text() + '\n';
 }
 
+/// Names the file that a value of the map names by the place of its copy.
+void name_copy(Value& map, std::string_view key, const std::filesystem::path& folder) {
+  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    Value& value = map.values[i];
+    if (map.keys[i] != key || value.kind != Value::Kind::kScalar) continue;
+    // An absolute path is itself.
+    value.text = record::path_between_kept(folder / value.text).string();
+  }
+}
+
 }  // namespace
 
 Node read_with_changes(const std::filesystem::path& file, const py::dict& changes) {
@@ -146,13 +156,11 @@ Node read_with_changes(const std::filesystem::path& file, const py::dict& change
 
 std::string text_with_changes(const std::filesystem::path& file, const py::dict& changes) {
   Value root = changed(file, changes);
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  for (const std::string_view key : kFileKeys) name_copy(root, key, folder);
   for (std::size_t i = 0; i < root.keys.size(); ++i) {
-    Value& value = root.values[i];
-    const bool names_file = std::ranges::find(kFileKeys, root.keys[i]) != kFileKeys.end();
-    if (!names_file || value.kind != Value::Kind::kScalar) continue;
-    const std::filesystem::path named =
-        std::filesystem::absolute(file).parent_path() / value.text;  // an absolute one is itself
-    value.text = record::path_between_kept(named).string();
+    if (root.keys[i] != "guests") continue;
+    for (Value& guest : root.values[i].values) name_copy(guest, "track", folder);
   }
   return text_of(root);
 }

@@ -13,23 +13,34 @@
 
 namespace hlc::python {
 
-/// Makes the folder, before anything is driven for it.
-/// @throws std::invalid_argument naming it if it cannot be made, or has something in it
-void make_run_folder(const std::filesystem::path& folder);
-
-/// What was driven, and with what.
-struct DrivenRun {
+/// What is driven, and with what.
+struct RunConfiguration {
   const scenario::Scenario& scenario;
   const std::string& changed_text;  ///< of its file; empty: the file's own
   std::optional<std::uint64_t> noise_seed;
   const std::vector<record::KeptFork>& forks;
-  const closed_loop::Experiment& experiment;
-  const std::vector<result::StepRecord>& rows;
 };
 
-/// Writes the files of run_lab.sh without logs and messages (hlc_bridge/record): the records, the
-/// configuration with which the programs drive it again, result and page.
-/// @throws std::runtime_error naming the file that cannot be written
-void write_run(const std::filesystem::path& folder, const DrivenRun& run);
+/// The folder of a run, with the files of run_lab.sh but logs and messages (hlc_bridge/record). If
+/// it is not completed, as when the run is interrupted, it is empty in the end.
+class RunFolderWriter {
+ public:
+  /// Makes the folder and writes the configuration, with which programs drive the run again.
+  /// @throws std::invalid_argument naming the folder if it cannot be made, or has something in it;
+  /// std::runtime_error naming the file that cannot be read or written
+  RunFolderWriter(std::filesystem::path folder, const RunConfiguration& run);
+  ~RunFolderWriter();
+  RunFolderWriter(const RunFolderWriter&) = delete;
+  RunFolderWriter& operator=(const RunFolderWriter&) = delete;
+
+  /// Writes result, page and records.
+  /// @throws std::runtime_error naming the file that cannot be written
+  void complete(const RunConfiguration& run, const closed_loop::Experiment& experiment,
+                const std::vector<result::StepRecord>& rows);
+
+ private:
+  std::filesystem::path folder_;
+  bool is_complete_{};
+};
 
 }  // namespace hlc::python

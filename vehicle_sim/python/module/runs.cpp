@@ -208,7 +208,10 @@ py::dict drive(const LoadedScenario& loaded, std::optional<std::size_t> steps,
   const scenario::Scenario scenario =
       scenario_of(loaded, {.steps = steps, .priorities = priorities});
   check_step(scenario);
-  if (out) make_run_folder(*out);
+  const RunConfiguration configuration{.scenario = scenario,
+                                       .changed_text = loaded.changed_text,
+                                       .noise_seed = noise_seed,
+                                       .forks = forks};
   closed_loop::ExperimentOptions options{.steps = scenario.steps,
                                          .noise_seed = noise_seed,
                                          .forks = forks_of(forks, scenario),
@@ -219,20 +222,15 @@ py::dict drive(const LoadedScenario& loaded, std::optional<std::size_t> steps,
     last = report.step;
     interruption.check();
   };
+  std::optional<RunFolderWriter> folder;
+  if (out) folder.emplace(*out, configuration);
   closed_loop::Experiment experiment;
   Rows rows;
   {
     const py::gil_scoped_release release;
     experiment = closed_loop::drive_experiment(scenario, options);
     rows = result::step_records(experiment.reports, experiment.drives, experiment.facts);
-    if (out) {
-      write_run(*out, {.scenario = scenario,
-                       .changed_text = loaded.changed_text,
-                       .noise_seed = noise_seed,
-                       .forks = forks,
-                       .experiment = experiment,
-                       .rows = rows});
-    }
+    if (folder) folder->complete(configuration, experiment, rows);
   }
   py::dict run = run_of(rows);
   run["trajectories"] = trajectory_columns(
