@@ -5,10 +5,11 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 usage() {
   cat <<'TEXT'
-usage: build.sh [--preset release|debug|asan|tsan|coverage]
+usage: build.sh [--preset release|debug|asan|tsan|coverage|fast_dds_3]
                 [--programs | --run_programs | --unit_tests | --thread_tests | --tests_of FOLDER]
 Configures and builds one preset.
-  --preset NAME   what to build (default release), into build/NAME
+  --preset NAME   what to build (default release), into build/NAME; fast_dds_3: release with Fast DDS 3, which is installed
+                  into build/fast_dds_3
   --programs      only the programs, no tests
   --run_programs  of these only what a run of run_lab.sh starts
   --unit_tests    only the single-process tests
@@ -40,8 +41,8 @@ while (($#)); do
   shift
 done
 case "$preset" in
-  release | debug | asan | tsan | coverage) ;;
-  *) echo "build.sh: --preset = $preset, must be one of release, debug, asan, tsan, coverage" >&2; exit 2 ;;
+  release | debug | asan | tsan | coverage | fast_dds_3) ;;
+  *) echo "build.sh: --preset = $preset, must be one of release, debug, asan, tsan, coverage, fast_dds_3" >&2; exit 2 ;;
 esac
 
 mkdir -p "$root/build/$preset"
@@ -55,6 +56,9 @@ run() {
 }
 
 cd "$root"
+if [[ $preset == fast_dds_3 ]]; then
+  hlc_bridge/dds/fast_dds_3/install.sh "build/$preset" || { echo "build.sh: preset $preset needs Fast DDS 3" >&2; exit 1; }
+fi
 : >"$log"
 start=$SECONDS
 run cmake --preset "$preset"

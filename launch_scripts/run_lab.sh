@@ -137,8 +137,8 @@ for name in out dump_problems map security bin; do [[ -z ${!name} || ${!name} ==
 [[ $log_level =~ ^(trace|debug|info|warning|error|critical|off)$ ]] ||
   fail "--log_level = $log_level, must be one of trace, debug, info, warning, error, critical, off"
 case "$preset" in
-  release | debug | asan | tsan) ;;
-  *) fail "--preset = $preset, must be one of release, debug, asan, tsan" ;;
+  release | debug | asan | tsan | fast_dds_3) ;;
+  *) fail "--preset = $preset, must be one of release, debug, asan, tsan, fast_dds_3" ;;
 esac
 [[ -z $from_standstill || ($from_standstill =~ ^(true|false)$ && -n $commonroad) ]] ||
   fail "--from_standstill = $from_standstill, must be one of true, false, with --commonroad"

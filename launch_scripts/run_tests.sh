@@ -6,6 +6,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 usage() {
   cat <<'TEXT'
 usage: run_tests.sh [FOLDER] [--sanitize] [--long] [--unit] [--filter REGEX] [--coverage]
+                    [--preset NAME]
 Installs what is missing, builds, and runs all tests or those of one folder.
   FOLDER          builds and runs only the tests of this folder and of those below it, named as the sources or as the
                   tests: planner/search or tests/planner/search
@@ -14,11 +15,13 @@ Installs what is missing, builds, and runs all tests or those of one folder.
   --long          ten times as many seeds in property tests, and integration tests until one of five times fails
   --unit          only unit tests, no integration tests
   --filter REGEX  only tests whose name matches
+  --preset NAME   instead of release: debug, or fast_dds_3, which installs Fast DDS 3 into build/fast_dds_3
   --coverage      instead builds with counters (preset coverage) and prints the line coverage of every folder;
                   details: build/coverage/html
 Examples:
   run_tests.sh --sanitize
   run_tests.sh planner/search --filter 'CostToGo.*'
+  run_tests.sh hlc_bridge/dds --unit --preset fast_dds_3
 Exit codes: 0 all passed, 1 setup, build or a test failed, 2 invalid input, also a filter without matching test
 TEXT
 }
@@ -48,6 +51,9 @@ while (($#)); do
     --coverage) presets=(coverage) ;;
     --long) long=true ;;
     --unit) unit=true ;;
+    --preset) (($# >= 2)) || fail "--preset needs a value"
+      presets=("$2"); shift ;;
+    --preset=*) presets=("${1#*=}") ;;
     --filter) (($# >= 2)) || fail "--filter needs a value"
       filter=$2; shift ;;
     --filter=*) filter=${1#*=} ;;
@@ -62,6 +68,10 @@ while (($#)); do
   shift
 done
 
+case "${presets[0]}" in
+  release | debug | coverage | fast_dds_3) ;;
+  *) fail "--preset = ${presets[0]}, must be one of release, debug, fast_dds_3" ;;
+esac
 if $long; then export HLC_TEST_LONG=1; fi # tests/support/num_seeds.hpp
 [[ -n $filter ]] || export HLC_TESTS_BY_SUITE=1 # tests/house/discover_tests.cmake
 select=()

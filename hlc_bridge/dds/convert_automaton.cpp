@@ -66,9 +66,9 @@ std::vector<CriterionWeight> weights_from_wire(const std::vector<CriterionWeight
   return weights;
 }
 
-bool is_valid(const AutomatonRequestMessage& wire) {
+bool is_valid_request(const AutomatonRequestMessage& wire) {
   const auto is_short = [](const auto& entries) { return entries.size() <= kMaxEntries; };
-  return dds::is_valid(VehicleId{wire.vehicle_id()}) && all_finite(wire.max_speed_mps()) &&
+  return is_valid(VehicleId{wire.vehicle_id()}) && all_finite(wire.max_speed_mps()) &&
          is_short(wire.labels()) && is_short(wire.weights()) && is_short(wire.enable_trims()) &&
          is_short(wire.disable_trims()) && is_short(wire.enable_edges()) &&
          is_short(wire.disable_edges()) &&
@@ -102,7 +102,7 @@ void to_wire(const AutomatonRequest& message, AutomatonRequestMessage& wire) {
 }
 
 Incoming<AutomatonRequest> from_wire(const AutomatonRequestMessage& wire) {
-  if (!is_valid(wire)) {
+  if (!is_valid_request(wire)) {
     return {std::nullopt, 1};
   }
   SubgraphRequest subgraph{.labels = wire.labels(),

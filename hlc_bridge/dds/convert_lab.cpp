@@ -16,7 +16,7 @@ namespace {
   return result;
 }
 
-::Pose2D pose_to_wire(const Pose& pose) {
+::Pose2D lab_pose_to_wire(const Pose& pose) {
   ::Pose2D result;
   result.x(pose.x_m);
   result.y(pose.y_m);
@@ -24,7 +24,7 @@ namespace {
   return result;
 }
 
-Pose pose_from_wire(const ::Pose2D& wire) { return {wire.x(), wire.y(), wire.yaw()}; }
+Pose lab_pose_from_wire(const ::Pose2D& wire) { return {wire.x(), wire.y(), wire.yaw()}; }
 
 template <class Message, class Wire>
 std::vector<Wire> all_to_wire(const std::vector<Message>& messages) {
@@ -59,7 +59,7 @@ void to_wire(const VehicleState& message, ::VehicleState& wire) {
       message;
   wire.vehicle_id(vehicle_id);
   wire.header(header(create_stamp, valid_after_stamp));
-  wire.pose(pose_to_wire(pose));
+  wire.pose(lab_pose_to_wire(pose));
   wire.IPS_update_age_nanoseconds(ips_update_age);
   wire.odometer_distance(odometer_distance_m);
   wire.imu_acceleration_forward(imu_acceleration_forward_mps2);
@@ -79,7 +79,7 @@ Incoming<VehicleState> from_wire(const ::VehicleState& wire) {
   const VehicleState message{.vehicle_id = wire.vehicle_id(),
                              .create_stamp = wire.header().create_stamp().nanoseconds(),
                              .valid_after_stamp = wire.header().valid_after_stamp().nanoseconds(),
-                             .pose = pose_from_wire(wire.pose()),
+                             .pose = lab_pose_from_wire(wire.pose()),
                              .ips_update_age = wire.IPS_update_age_nanoseconds(),
                              .odometer_distance_m = wire.odometer_distance(),
                              .imu_acceleration_forward_mps2 = wire.imu_acceleration_forward(),
@@ -107,13 +107,13 @@ void to_wire(const VehicleObservation& message, ::VehicleObservation& wire) {
   const auto& [vehicle_id, create_stamp, valid_after_stamp, pose] = message;
   wire.vehicle_id(vehicle_id);
   wire.header(header(create_stamp, valid_after_stamp));
-  wire.pose(pose_to_wire(pose));
+  wire.pose(lab_pose_to_wire(pose));
 }
 
 Incoming<VehicleObservation> from_wire(const ::VehicleObservation& wire) {
   const VehicleObservation message{wire.vehicle_id(), wire.header().create_stamp().nanoseconds(),
                                    wire.header().valid_after_stamp().nanoseconds(),
-                                   pose_from_wire(wire.pose())};
+                                   lab_pose_from_wire(wire.pose())};
   return valid_if(is_finite(message.pose), message);
 }
 
@@ -185,7 +185,7 @@ void to_wire(const PathTrackingCommand& message, ::VehicleCommandPathTracking& w
   wire.path().clear();
   for (const auto& [pose, s_m] : path) {
     ::PathPoint point;
-    point.pose(pose_to_wire(pose));
+    point.pose(lab_pose_to_wire(pose));
     point.s(s_m);
     wire.path().push_back(point);
   }
@@ -202,7 +202,7 @@ Incoming<PathTrackingCommand> from_wire(const ::VehicleCommandPathTracking& wire
                               {},
                               wire.speed()};
   for (const ::PathPoint& point : wire.path()) {
-    message.path.push_back({pose_from_wire(point.pose()), point.s()});
+    message.path.push_back({lab_pose_from_wire(point.pose()), point.s()});
   }
   const bool valid = std::isfinite(message.speed_mps) &&
                      std::ranges::all_of(message.path, [](const PathPoint& point) {

@@ -73,21 +73,21 @@ Incoming<Parameter> from_wire(const ::Parameter& wire) {
     return Incoming<Parameter>{Parameter{wire.name(), std::move(value)}, 0};
   };
   switch (wire.type()) {
-    case ::Invalid:
+    case ::ParameterType::Invalid:
       return with(std::monostate{});
-    case ::Bool:
+    case ::ParameterType::Bool:
       return with(wire.value_bool());
-    case ::Int32:
+    case ::ParameterType::Int32:
       return integers.size() == 1 ? with(integers.front()) : Incoming<Parameter>{std::nullopt, 1};
-    case ::UInt64:
+    case ::ParameterType::UInt64:
       return with(wire.value_uint64_t());
-    case ::Double:
+    case ::ParameterType::Double:
       return doubles.size() == 1 ? with(doubles.front()) : Incoming<Parameter>{std::nullopt, 1};
-    case ::String:
+    case ::ParameterType::String:
       return with(wire.value_string());
-    case ::Vector_Int32:
+    case ::ParameterType::Vector_Int32:
       return with(integers);
-    case ::Vector_Double:
+    case ::ParameterType::Vector_Double:
       return with(doubles);
   }
   return {std::nullopt, 1};
@@ -165,7 +165,8 @@ void to_wire(const Visualization& message, ::Visualization& wire) {
 
 Incoming<Visualization> from_wire(const ::Visualization& wire) {
   if (wire.points().size() > kMaxEntries || wire.string_message().size() > kMaxText ||
-      wire.type() > ::FilledCircle || wire.string_message_anchor() > ::TopRight ||
+      wire.type() > ::VisualizationType::FilledCircle ||
+      wire.string_message_anchor() > ::StringMessageAnchor::TopRight ||
       !std::isfinite(wire.size())) {
     return {std::nullopt, 1};
   }

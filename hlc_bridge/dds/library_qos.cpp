@@ -35,10 +35,10 @@ fdds::DataWriterQos writer_qos(const EndpointQos& qos) {
   set_common(qos, result);
   result.publish_mode().kind = fdds::SYNCHRONOUS_PUBLISH_MODE;
   auto& times = result.reliable_writer_qos().times;
-  times.heartbeatPeriod = to_duration(qos.heartbeat_period);
-  times.initialHeartbeatDelay = to_duration(qos.heartbeat_delay);
-  times.nackResponseDelay = to_duration(qos.nack_response);
-  times.nackSupressionDuration = to_duration(qos.nack_suppression);
+  times.*kHeartbeatPeriod = to_duration(qos.heartbeat_period);
+  times.*kInitialHeartbeatDelay = to_duration(qos.heartbeat_delay);
+  times.*kNackResponseDelay = to_duration(qos.nack_response);
+  times.*kNackSuppression = to_duration(qos.nack_suppression);
   return result;
 }
 
@@ -46,8 +46,8 @@ fdds::DataReaderQos reader_qos(const EndpointQos& qos) {
   fdds::DataReaderQos result;
   set_common(qos, result);
   auto& times = result.reliable_reader_qos().times;
-  times.initialAcknackDelay = to_duration(qos.initial_acknack);
-  times.heartbeatResponseDelay = to_duration(qos.heartbeat_response);
+  times.*kInitialAcknackDelay = to_duration(qos.initial_acknack);
+  times.*kHeartbeatResponseDelay = to_duration(qos.heartbeat_response);
   return result;
 }
 

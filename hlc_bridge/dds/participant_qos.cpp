@@ -1,6 +1,7 @@
 #include "hlc_bridge/dds/participant_qos.hpp"
 
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -79,8 +80,8 @@ void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos)
     throw std::invalid_argument("participant " + options.name +
                                 ": the local domain has no discovery server");
   }
-  RemoteServer server;
-  if (!server.ReadguidPrefix(options.discovery_server->guid_prefix.c_str())) {
+  frtps::GuidPrefix_t server;
+  if (!(std::istringstream(options.discovery_server->guid_prefix) >> server)) {
     throw std::invalid_argument("discovery server id \"" + options.discovery_server->guid_prefix +
                                 "\": 12 bytes in hexadecimal with dots between them");
   }
@@ -89,13 +90,12 @@ void set_discovery(const ParticipantOptions& options, DomainParticipantQos& qos)
   address.port = options.discovery_server->port;
   if (options.is_discovery_server) {
     discovery.discoveryProtocol = frtps::DiscoveryProtocol::SERVER;
-    qos.wire_protocol().prefix = server.guidPrefix;
+    qos.wire_protocol().prefix = server;
     qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(address);
     return;
   }
-  server.metatrafficUnicastLocatorList.push_back(address);
   discovery.discoveryProtocol = frtps::DiscoveryProtocol::CLIENT;
-  discovery.m_DiscoveryServers.push_back(server);
+  add_discovery_server(discovery, server, address);
   discovery.discoveryServer_client_syncperiod = to_duration(250ms);
   // Any free port, unicast: a client needs no multicast.
   qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(frtps::Locator_t{});

@@ -15,16 +15,16 @@ namespace {
 template <class Message>
 auto converting(std::function<void(const Message&)> on_message, SenderOf<Message> sender,
                 const std::shared_ptr<const ParticipantCore>& core, const std::string& topic) {
-  using Type = typename Wire<Message>::Type;
+  using PubSubType = typename Wire<Message>::PubSubType;
   const auto& admits = core->options().admits;
   return [on_message = std::move(on_message), sender = std::move(sender), admits,
           check = SenderCheck{core, topic}, excess = DropLog{core, topic}](
              const void* sample, const frtps::GUID_t& writer) mutable -> ReaderEndpoint::Fault {
-    const Type& wire = *static_cast<const Type*>(sample);
+    const auto& wire = *static_cast<const typename Wire<Message>::Type*>(sample);
     const auto incoming = from_wire(wire);
     if (!incoming.message) return {.invalid = incoming.invalid};
     if (sender && !check.accepts(writer, sender(*incoming.message))) return {.is_of_another = true};
-    if (admits && !admits(key_of(writer.guidPrefix), Type::getCdrSerializedSize(wire))) {
+    if (admits && !admits(key_of(writer.guidPrefix), message_bytes<PubSubType>(&wire))) {
       excess.log(writer, "as many as a process stores of one publisher are not read yet");
       return {.is_in_excess = true};
     }

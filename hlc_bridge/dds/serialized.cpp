@@ -9,12 +9,12 @@ namespace hlc::dds {
 
 template <class Message>
 std::optional<Message> message_from(std::string_view cdr) {
-  TolerantType<typename Wire<Message>::PubSubType> type;
+  TolerantType<typename Wire<Message>::PubSubType> type{false};
   SerializedPayload payload(static_cast<std::uint32_t>(cdr.size()));
   std::ranges::copy(cdr, reinterpret_cast<char*>(payload.data));
   payload.length = static_cast<std::uint32_t>(cdr.size());
   typename Wire<Message>::Type wire;
-  if (!type.deserialize(&payload, &wire)) return std::nullopt;
+  if (!deserialize(type, payload, &wire)) return std::nullopt;
   return from_wire(wire).message;
 }
 

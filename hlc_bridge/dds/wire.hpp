@@ -82,9 +82,8 @@ template <> struct Wire<RunState> : OwnWire<RunStateMessage, RunStateMessagePubS
 /// with them.
 template <class Message>
 [[nodiscard]] fdds::TypeSupport type_support(Transport transport) {
-  fdds::TypeSupport type{new TolerantType<typename Wire<Message>::PubSubType>};
-  announce_type_object(type, transport == Transport::kLab && Wire<Message>::kAnnouncesTypeObject);
-  return type;
+  const bool announces = transport == Transport::kLab && Wire<Message>::kAnnouncesTypeObject;
+  return fdds::TypeSupport{new TolerantType<typename Wire<Message>::PubSubType>{announces}};
 }
 
 }  // namespace hlc::dds

@@ -38,8 +38,8 @@ bool WriterEndpoint::is_observed() const {
 }
 
 void WriterEndpoint::observe(void* sample, const MessageStamp& stamp) const {
-  SerializedPayload payload(type_->getSerializedSizeProvider(sample)());
-  if (!type_->serialize(sample, &payload)) return;  // then it was not accepted either
+  SerializedPayload payload(serialized_size(*type_, sample));
+  if (!serialize(*type_, sample, payload)) return;  // then it was not accepted either
   core_->options().on_published(
       {.role = core_->options().role,
        .topic = topic_,

@@ -21,7 +21,7 @@ class WriterEndpoint : private fdds::DataWriterListener {
   WriterEndpoint& operator=(const WriterEndpoint&) = delete;
 
   /// `sample` is of the type's generated class.
-  bool write(void* sample) { return writer_->write(sample); }
+  bool write(void* sample) { return is_ok(writer_->write(sample)); }
   /// For ParticipantOptions::on_published.
   [[nodiscard]] bool is_observed() const;
   void observe(void* sample, const MessageStamp& stamp) const;

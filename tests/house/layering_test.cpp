@@ -27,7 +27,7 @@ struct Outside {
   std::string why;
 };
 const std::vector<Outside> kOutside{
-    {"^(fastdds|fastrtps|fastcdr)/.*", "^hlc_bridge/dds/fast_dds\\..*",
+    {"^(fastdds|fastrtps|fastcdr)/.*", "^hlc_bridge/dds/fast_dds[._].*",
      "Fast DDS has one entry, hlc_bridge/dds/fast_dds"},
     {"^ompl/(?!datastructures/BinaryHeap\\.h).*", "^planner/(search/ompl/.*|apps/ompl_example.cpp)",
      "OMPL stays in its adapter"},

@@ -31,6 +31,8 @@ OTHERS = {"apt", "cmake", "cpack", "export", "ffmpeg", "kill", "ninja", "pip", "
 NOT_RUN = {
     "./launch_scripts/run_lab.sh  ": "builds; its run is the one of the picture below it",
     "./launch_scripts/run_tests.sh": "runs this test",
+    "launch_scripts/run_tests.sh hlc_bridge/dds --unit --preset fast_dds_3": "downloads another Fast DDS, which no test needs",
+    "launch_scripts/run_lab.sh --preset fast_dds_3": "likewise",
     "launch_scripts/setup.sh": "the machine that builds has had it",
     "launch_scripts/build.sh": "the programs are those that it has built",
     "./launch_scripts/run_lab.sh --map ../shared": "the lab's own map is no part of the project",

@@ -155,13 +155,13 @@ TEST(LabConversionRefuses, ParametersOfUnknownTypeOrWithoutTheirValue) {
   ::Parameter wire;
   wire.type(static_cast<::ParameterType>(8));
   EXPECT_FALSE(from_wire(wire).message.has_value());
-  wire.type(::Int32);
+  wire.type(::ParameterType::Int32);
   EXPECT_FALSE(from_wire(wire).message.has_value());
   wire.values_int32({1, 2});
   EXPECT_FALSE(from_wire(wire).message.has_value());
   wire.values_int32({1});
   EXPECT_TRUE(from_wire(wire).message.has_value());
-  wire.type(::Double);
+  wire.type(::ParameterType::Double);
   EXPECT_FALSE(from_wire(wire).message.has_value());
   wire.values_double({kNan});
   EXPECT_FALSE(from_wire(wire).message.has_value());

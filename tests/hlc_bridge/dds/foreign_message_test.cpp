@@ -21,30 +21,53 @@ namespace {
 class BytesType : public fdds::TopicDataType {
  public:
   explicit BytesType(const std::string& claimed_type) {
+#if HLC_FAST_DDS == 3
+    set_name(claimed_type);
+    max_serialized_type_size = 1024;
+#else
     setName(claimed_type.c_str());
     m_typeSize = 1024;
     auto_fill_type_object(false);
     auto_fill_type_information(false);
+#endif
   }
 
  private:
   using Bytes = std::vector<unsigned char>;
   using Payload = SerializedPayload;
 
-  bool serialize(void* data, Payload* payload) override {
-    const Bytes& bytes = *static_cast<Bytes*>(data);
-    payload->encapsulation = CDR_LE;
-    std::copy(bytes.begin(), bytes.end(), payload->data);
-    payload->length = static_cast<std::uint32_t>(bytes.size());
+  static bool copy(const void* data, Payload& payload) {
+    const Bytes& bytes = *static_cast<const Bytes*>(data);
+    payload.encapsulation = CDR_LE;
+    std::copy(bytes.begin(), bytes.end(), payload.data);
+    payload.length = size(data);
     return true;
   }
+  static std::uint32_t size(const void* data) {
+    return static_cast<std::uint32_t>(static_cast<const Bytes*>(data)->size());
+  }
+#if HLC_FAST_DDS == 3
+  bool serialize(const void* data, Payload& payload, fdds::DataRepresentationId_t) override {
+    return copy(data, payload);
+  }
+  bool deserialize(Payload&, void*) override { return false; }
+  std::uint32_t calculate_serialized_size(const void* data, fdds::DataRepresentationId_t) override {
+    return size(data);
+  }
+  void* create_data() override { return new Bytes; }
+  void delete_data(void* data) override { delete static_cast<Bytes*>(data); }
+  bool compute_key(Payload&, frtps::InstanceHandle_t&, bool) override { return false; }
+  bool compute_key(const void*, frtps::InstanceHandle_t&, bool) override { return false; }
+#else
+  bool serialize(void* data, Payload* payload) override { return copy(data, *payload); }
   bool deserialize(Payload*, void*) override { return false; }
   std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-    return [data] { return static_cast<std::uint32_t>(static_cast<Bytes*>(data)->size()); };
+    return [data] { return size(data); };
   }
   void* createData() override { return new Bytes; }
   void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
   bool getKey(void*, frtps::InstanceHandle_t*, bool) override { return false; }
+#endif
 };
 
 class ForeignMessages : public testing::Test {
@@ -140,10 +163,7 @@ TEST_F(ForeignMessages, InvalidValuesAreDroppedAndCounted) {
 
 /// A type of ours as our writers have it.
 fdds::TypeSupport outcome_type() {
-  auto type = std::make_unique<Wire<coordination::Outcome>::PubSubType>();
-  type->auto_fill_type_object(false);
-  type->auto_fill_type_information(false);
-  return fdds::TypeSupport{type.release()};
+  return type_support<coordination::Outcome>(Transport::kLoopback);
 }
 
 // Every key that a reader has received takes one of its instances until the end.

@@ -46,18 +46,18 @@ TEST(LibraryQos, WritersGetEveryValueOfTheTable) {
   expect_common(qos);
   EXPECT_EQ(qos.publish_mode().kind, fdds::SYNCHRONOUS_PUBLISH_MODE);
   const auto& times = qos.reliable_writer_qos().times;
-  EXPECT_EQ(times.heartbeatPeriod, to_duration(milliseconds{1002}));
-  EXPECT_EQ(times.initialHeartbeatDelay, to_duration(milliseconds{1003}));
-  EXPECT_EQ(times.nackResponseDelay, to_duration(milliseconds{1004}));
-  EXPECT_EQ(times.nackSupressionDuration, to_duration(milliseconds{1005}));
+  EXPECT_EQ(times.*kHeartbeatPeriod, to_duration(milliseconds{1002}));
+  EXPECT_EQ(times.*kInitialHeartbeatDelay, to_duration(milliseconds{1003}));
+  EXPECT_EQ(times.*kNackResponseDelay, to_duration(milliseconds{1004}));
+  EXPECT_EQ(times.*kNackSuppression, to_duration(milliseconds{1005}));
 }
 
 TEST(LibraryQos, ReadersGetEveryValueOfTheTable) {
   const auto qos = reader_qos(every_value_different());
   expect_common(qos);
   const auto& times = qos.reliable_reader_qos().times;
-  EXPECT_EQ(times.initialAcknackDelay, to_duration(milliseconds{1006}));
-  EXPECT_EQ(times.heartbeatResponseDelay, to_duration(milliseconds{1007}));
+  EXPECT_EQ(times.*kInitialAcknackDelay, to_duration(milliseconds{1006}));
+  EXPECT_EQ(times.*kHeartbeatResponseDelay, to_duration(milliseconds{1007}));
 }
 
 TEST(LibraryQos, TheOtherValuesOfTheTableToo) {

@@ -55,7 +55,7 @@ TEST_F(PublishedMessages, EveryMessageIsObservedWithItsBytesAndItsStamp) {
   std::ranges::copy(published_[0].cdr, payload.data);
   payload.length = static_cast<std::uint32_t>(published_[0].cdr.size());
   ::VehicleState wire;
-  ASSERT_TRUE(type_support<VehicleState>(Transport::kLoopback)->deserialize(&payload, &wire));
+  ASSERT_TRUE(deserialize(*type_support<VehicleState>(Transport::kLoopback), payload, &wire));
   EXPECT_EQ(wire.vehicle_id(), 3);
   EXPECT_EQ(wire.speed(), 0.7);
 }

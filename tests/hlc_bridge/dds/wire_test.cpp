@@ -19,8 +19,8 @@ Bytes serialized(const Message& message) {
   const auto type = type_support<Message>(Transport::kLab);
   typename Wire<Message>::Type wire;
   to_wire(message, wire);
-  SerializedPayload payload{type->getSerializedSizeProvider(&wire)()};
-  EXPECT_TRUE(type->serialize(&wire, &payload));
+  SerializedPayload payload{serialized_size(*type, &wire)};
+  EXPECT_TRUE(serialize(*type, &wire, payload));
   return Bytes(payload.data, payload.data + payload.length);
 }
 
@@ -31,7 +31,7 @@ bool deserializes(const Bytes& bytes) {
   std::copy(bytes.begin(), bytes.end(), payload.data);
   payload.length = static_cast<std::uint32_t>(bytes.size());
   typename Wire<Message>::Type wire;
-  return type->deserialize(&payload, &wire);
+  return deserialize(*type, payload, &wire);
 }
 
 TEST(WireType, ABooleanThatIsNeitherTrueNorFalseIsNoMessage) {
@@ -66,7 +66,7 @@ TYPED_TEST(WireTypes, DamagedBytesAreReadOrRefused) {
     payload.length = static_cast<std::uint32_t>(bytes.size());
     typename Wire<TypeParam>::Type wire;
     bool readable = false;
-    ASSERT_NO_THROW(readable = type->deserialize(&payload, &wire));
+    ASSERT_NO_THROW(readable = deserialize(*type, payload, &wire));
     if (readable) {
       Incoming<TypeParam> incoming = from_wire(wire);
       ASSERT_TRUE(incoming.message.has_value() || incoming.invalid > 0);
