@@ -14,7 +14,7 @@ namespace {
 
 template <class PubSubType, class Wire>
 bool is_read(std::string_view cdr, Wire& wire) {
-  dds::TolerantType<PubSubType> type;
+  dds::TolerantType<PubSubType> type{false};
   dds::SerializedPayload payload(static_cast<std::uint32_t>(cdr.size()));
   std::ranges::copy(cdr, reinterpret_cast<char*>(payload.data));
   payload.length = static_cast<std::uint32_t>(cdr.size());
