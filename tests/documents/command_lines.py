@@ -53,7 +53,7 @@ def _call(words: list[str]) -> list[str]:
 def calls(document: Document) -> list[Call]:
     """Of all lines of code blocks and of inline code; what follows `--wrap` of sbatch is a call, too."""
     lines = [(block.line + i, line) for block in document.blocks if block.language in SHELLS
-             for i, line in enumerate(_joined(block.lines))]
+             for i, line in enumerate(joined(block.lines))]
     lines += [(code.line, code.text) for code in document.codes]
     found = []
     for number, line in lines:
@@ -65,17 +65,17 @@ def calls(document: Document) -> list[Call]:
     return found
 
 
-def _joined(lines: tuple) -> list[str]:
+def joined(lines: tuple) -> list[str]:
     """Lines that end with a backslash and the next one as one, and an empty one in its place."""
-    joined: list[str] = []
+    whole: list[str] = []
     begun = None  # index of the line that goes on
     for line in lines:
         if begun is None:
-            joined.append(line)
+            whole.append(line)
         else:
-            joined[begun] += line
-            joined.append("")
-        begun = (begun if begun is not None else len(joined) - 1) if line.endswith("\\") else None
+            whole[begun] += line
+            whole.append("")
+        begun = (begun if begun is not None else len(whole) - 1) if line.endswith("\\") else None
         if line.endswith("\\"):
-            joined[begun] = joined[begun][:-1]
-    return joined
+            whole[begun] = whole[begun][:-1]
+    return whole

@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -39,8 +40,7 @@ NOT_RUN = {
     "./launch_scripts/run_lab.sh --commonroad FILE.xml": "CommonRoadRun of tests/integration has files",
     "run_lab.sh --commonroad FILE.xml": "likewise",
     "import_commonroad --commonroad FILE.xml": "likewise",
-    "launch_scripts/run_lab.sh --scenario on_request": "two terminals; Reconfiguration of tests/integration",
-    "build/release/bin/automaton_request": "likewise",
+    "build/release/bin/automaton_request": "two terminals; Reconfiguration of tests/integration",
     "automaton_request": "likewise",
     "vehicle_sim/report/documents.sh": "ten minutes; tests/vehicle_sim/report checks the tables",
     "sbatch": "needs Slurm; evaluate --shard is tested in tests/vehicle_sim/apps",
@@ -49,8 +49,7 @@ NOT_RUN = {
     "launch_scripts/vehicle.sh --vehicle_ids": "two terminals; Scripts and KilledProcess of tests/integration",
     "build/release/bin/lab_control": "likewise",
     "build/release/bin/summarize --run runs/by_hand": "likewise",
-    "launch_scripts/run_lab.sh --simulated_time=false --on_death continue": "KilledProcess of tests/integration",
-    "kill -9": "likewise",
+    "kill -9": "KilledProcess of tests/integration",
     "cmake --install": "tests/install",
     "cpack": "tests/install",
     "apt install": "tests/install",
@@ -79,6 +78,7 @@ EXIT_CODES = {
     "build/release/bin/compare ": 1,  # the two runs differ
     "python3 launch_scripts/course/check.py": 1,  # of a skeleton: not yet
 }
+LONGEST_S = 600  # a command: so much only if it hangs
 NEEDED = {"draw_run": ("chromium", "ffmpeg"), "ffmpeg": ("chromium", "ffmpeg")}  # without which the tests of the program itself are skipped, too
 
 
@@ -86,11 +86,13 @@ def lines_of(document: Document) -> list[tuple[int, str]]:
     """Number and text of the lines that call programs."""
     ours = set(program_help.programs()) | {"hlc-rollout", "hlc-run-lab"}
     return [(block.line + i, line) for block in document.blocks if block.language in command_lines.SHELLS
-            for i, line in enumerate(block.lines) for words in command_lines.split(line)[:1]
+            for i, line in enumerate(command_lines.joined(block.lines)) for words in command_lines.split(line)[:1]
             if words[0] in ours | OTHERS or re.fullmatch(r"(\./)?[\w/]+\.(sh|py)|build/release/bin/\w+", words[0])]
 
 
 def reason_not_to_run(line: str) -> str | None:
+    if "--simulated_time=false" in line:
+        return "in real time, which other tests beside it would disturb: the tests of the label real_time"
     return next((why for begin, why in NOT_RUN.items() if (line + "  ").startswith(begin)), None)
 
 
@@ -99,12 +101,25 @@ def shortened(line: str) -> str:
     line = command_lines.without_comment(line)
     flags = next((dict(flags) for begin, flags in SHORTER.items() if line.startswith(begin)), {})
     if "run_lab.sh" in line.split()[0]:
-        flags |= {"--no_build": ""} | ({} if " --out " in line or "--steps" in line else {"--steps": "20"})
+        flags |= {"--no_build": "", "--startup_timeout_s": "120"} | ({} if " --out " in line or "--steps" in line else {"--steps": "20"})
     command, *rest = line.split(" && ")
     for flag, value in flags.items():
         command, count = re.subn(rf"{flag}[ =]\S+", f"{flag} {value}", command)
         command += "" if count else f" {flag} {value}".rstrip()
     return " && ".join([command, *rest])
+
+
+def ended(command: str, folder: pathlib.Path, path: str) -> tuple[int, str]:
+    """Exit code and output of a command that ends, with all that it started."""
+    with subprocess.Popen(["bash", "-c", command], cwd=folder, env=os.environ | {"PATH": path}, text=True,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          start_new_session=True) as process:
+        try:
+            printed = process.communicate(timeout=LONGEST_S)[0]
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            printed = process.communicate()[0] + f"\nended after {LONGEST_S} s"
+        return process.returncode, printed
 
 
 class Commands(unittest.TestCase):
@@ -132,11 +147,9 @@ class Commands(unittest.TestCase):
                 continue
             command = shortened(line).replace("/tmp/", f"{copy}/")
             with self.subTest(line=f"{name}:{number}"):
-                done = subprocess.run(["bash", "-c", command], cwd=copy, env=os.environ | {"PATH": path}, timeout=120,
-                                      check=False, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                      stderr=subprocess.STDOUT, text=True)
+                code, printed = ended(command, copy, path)
                 expected = next((code for begin, code in EXIT_CODES.items() if line.startswith(begin)), 0)
-                self.assertEqual(done.returncode, expected, f"{command}\n{done.stdout[-3000:]}")
+                self.assertEqual(code, expected, f"{command}\n{printed[-3000:]}")
         return copy
 
 
