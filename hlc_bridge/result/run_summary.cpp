@@ -51,22 +51,30 @@ void add_speed(std::span<const StepRecord* const> rows, VehicleSummary& summary)
   summary.driven_speed_mps = statistics(speeds_mps);
 }
 
+void add_found_plans(std::span<const StepRecord* const> rows, VehicleSummary& summary) {
+  std::vector<double> costs_m2;
+  std::size_t budget = 0;
+  for (const StepRecord* row : rows) {
+    const coordination::Report& report = row->record.report;
+    if (report.quality == coordination::PlanQuality::kNone) continue;
+    costs_m2.push_back(report.cost_m2);
+    budget += report.quality == coordination::PlanQuality::kBudget ? 1U : 0U;
+  }
+  if (costs_m2.empty()) return;
+  summary.budget_share = static_cast<double>(budget) / static_cast<double>(costs_m2.size());
+  summary.plan_cost_m2 = statistics(costs_m2);
+}
+
 void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleSummary& summary) {
   std::vector<double> generated;
   std::vector<double> expanded;
   std::vector<double> planning_s;
-  std::vector<double> costs_m2;
-  std::size_t budget = 0;
   for (const StepRecord* row : rows) {
     summary.fallback_steps +=
         row->record.report.status == coordination::StepStatus::kFallback ? 1U : 0U;
     summary.undrivable_steps +=
         row->record.report.reason == coordination::FallbackReason::kUndrivable ? 1U : 0U;
     summary.deadline_misses += row->record.deadline_missed ? 1U : 0U;
-    if (row->record.report.quality != coordination::PlanQuality::kNone) {
-      costs_m2.push_back(row->record.report.cost_m2);
-    }
-    budget += row->record.report.quality == coordination::PlanQuality::kBudget ? 1U : 0U;
     if (has_planned(*row)) {
       generated.push_back(static_cast<double>(row->record.report.generated));
       expanded.push_back(static_cast<double>(row->record.report.expanded));
@@ -74,10 +82,6 @@ void add_search(std::span<const StepRecord* const> rows, double step_s, VehicleS
       summary.plans_exceeding_step += planning_s.back() > step_s ? 1U : 0U;
     }
   }
-  if (!costs_m2.empty()) {
-    summary.budget_share = static_cast<double>(budget) / static_cast<double>(costs_m2.size());
-  }
-  summary.plan_cost_m2 = statistics(costs_m2);
   summary.generated = statistics(generated);
   summary.expanded = statistics(expanded);
   summary.planning_s = statistics(planning_s);
@@ -197,6 +201,7 @@ VehicleSummary summarize_vehicle(const VehicleDescription& vehicle,
   summary.steps = own.size();
   add_route(vehicle, own, description.step_s, summary);
   add_speed(own, summary);
+  add_found_plans(own, summary);
   add_search(own, description.step_s, summary);
   summary.wait = longest_wait(own, description.step_s);
   if (const auto since = own.empty() ? std::nullopt : arrived_since(*own.back())) {

@@ -243,13 +243,9 @@ TEST(RandomRoutes, ACarDrivesRoundItsWholeRouteWithoutAStop) {
   const ScenarioVehicle& car = scenario.vehicles.front();
   rollout::Rollout rollout = rollout::make_rollout(scenario);
   std::vector<Point> positions_m;
-  bool kept_its_plan = false;
   for (int step = 0; step < 1800; ++step) {
     const std::vector<coordination::Report> reports = rollout.step();
-    // Where the lanes ahead change, a step may have no new plan; the one in force leads on.
-    const bool keeps_its_plan = reports.front().status == coordination::StepStatus::kFallback;
-    ASSERT_FALSE(keeps_its_plan && kept_its_plan) << step;
-    kept_its_plan = keeps_its_plan;
+    ASSERT_NE(reports.front().status, coordination::StepStatus::kFallback) << step;
     positions_m.push_back(reports.front().planned_pose.position_m());
     if (step > 20) {
       ASSERT_GT((positions_m.back() - positions_m[positions_m.size() - 11]).norm(), 0.1) << step;
