@@ -160,7 +160,7 @@ build_programs() { ! $build || "$here/build.sh" --preset "$preset" "$1" || exit 
 if $build; then
   "$here/setup.sh" || exit 1
   build_programs --run_programs
-  ! $view || build_programs --programs
+  if $view || [[ -n $commonroad ]]; then build_programs --programs; fi
 fi
 [[ -n $bin ]] || bin=$root/build/$preset/bin
 [[ -x $bin/lab_control ]] || fail "no programs in $bin; leave out --no_build and --bin"

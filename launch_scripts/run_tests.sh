@@ -41,19 +41,25 @@ test_folders() {
 }
 
 presets=(release)
+chosen="" # the flag that chose others
+choose() { # flag, presets
+  [[ -z $chosen || $chosen == "$1" ]] || fail "$1 with $chosen, must be without"
+  chosen=$1
+  presets=("${@:2}")
+}
 folder=""
 filter=""
 unit=false
 long=false
 while (($#)); do
   case "$1" in
-    --sanitize) presets=(release asan tsan) ;;
-    --coverage) presets=(coverage) ;;
+    --sanitize) choose --sanitize release asan tsan ;;
+    --coverage) choose --coverage coverage ;;
     --long) long=true ;;
     --unit) unit=true ;;
     --preset) (($# >= 2)) || fail "--preset needs a value"
-      presets=("$2"); shift ;;
-    --preset=*) presets=("${1#*=}") ;;
+      choose --preset "$2"; shift ;;
+    --preset=*) choose --preset "${1#*=}" ;;
     --filter) (($# >= 2)) || fail "--filter needs a value"
       filter=$2; shift ;;
     --filter=*) filter=${1#*=} ;;

@@ -4,8 +4,10 @@
 
 #if HLC_FAST_DDS == 3
 #include "hlc_bridge/dds/fast_dds_3.hpp"
-#else
+#elif HLC_FAST_DDS == 2
 #include "hlc_bridge/dds/fast_dds_2.hpp"
+#else
+#error "HLC_FAST_DDS must be 2 or 3: link with hlc_fast_dds"
 #endif
 
 /// The only entry to Fast DDS: its headers, and our own names for everything that changes from

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -41,8 +42,9 @@ using LibraryReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 [[nodiscard]] inline bool is_ok(const LibraryReturnCode& code) {
   return code == LibraryReturnCode::RETCODE_OK;
 }
-/// What writers return in 2.x: a code in 3.x, where success is 0.
-[[nodiscard]] inline bool is_ok(bool is_done) { return is_done; }
+/// What writers return in 2.x: a code in 3.x, where success is 0. For nothing that converts to
+/// bool.
+[[nodiscard]] inline bool is_ok(std::same_as<bool> auto is_done) { return is_done; }
 
 inline constexpr auto kHeartbeatPeriod = &frtps::WriterTimes::heartbeatPeriod;
 inline constexpr auto kInitialHeartbeatDelay = &frtps::WriterTimes::initialHeartbeatDelay;
@@ -63,8 +65,13 @@ inline void add_discovery_server(frtps::DiscoverySettings& settings,
 
 [[nodiscard]] inline bool has_key(const fdds::TypeSupport& type) { return type->m_isGetKeyDefined; }
 
+/// Both the object and what it is called by.
 [[nodiscard]] inline bool announces_type_object(const fdds::TypeSupport& type) {
   return type->auto_fill_type_object() && type->auto_fill_type_information();
+}
+/// Neither of them.
+[[nodiscard]] inline bool announces_no_type_object(const fdds::TypeSupport& type) {
+  return !type->auto_fill_type_object() && !type->auto_fill_type_information();
 }
 
 [[nodiscard]] inline std::uint32_t serialized_size(fdds::TopicDataType& type, void* sample) {

@@ -39,6 +39,7 @@ using SerializedPayload = frtps::SerializedPayload_t;
 using LibraryReturnCode = fdds::ReturnCode_t;
 
 [[nodiscard]] inline bool is_ok(LibraryReturnCode code) { return code == fdds::RETCODE_OK; }
+bool is_ok(bool is_done) = delete;  // true would be a code of failure
 
 inline constexpr auto kHeartbeatPeriod = &frtps::WriterTimes::heartbeat_period;
 inline constexpr auto kInitialHeartbeatDelay = &frtps::WriterTimes::initial_heartbeat_delay;
@@ -61,6 +62,10 @@ inline void add_discovery_server(frtps::DiscoverySettings& settings,
 [[nodiscard]] inline bool announces_type_object(const fdds::TypeSupport& type) {
   type->register_type_object_representation();
   return type->type_identifiers().type_identifier1()._d() != fdds::xtypes::TK_NONE;
+}
+
+[[nodiscard]] inline bool announces_no_type_object(const fdds::TypeSupport& type) {
+  return !announces_type_object(type);
 }
 
 // The first representation is that of 2.x and of the lab.

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/apps/fitted_table.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/interruption.hpp"
 #include "planner/apps/priority_files.hpp"
@@ -279,11 +280,13 @@ int run(Flags flags, const std::string& command) {
   }
   std::string table = kHeading;
   for (const Cell& cell : cells) table += row_of(cell, any.subgraph->automaton().step_s);
-  fmt::print("{}: {} steps of {:g} s, horizon {}, subgraph {} of {} trims, {} draws{}\n\n{}{}",
-             any.name, any.steps, any.subgraph->automaton().step_s, any.horizon_steps,
-             any.subgraph->spec().name, any.subgraph->spec().trims.size(), draws.size(),
-             flags.max_levels ? fmt::format(", at most {} levels", *flags.max_levels) : "", table,
-             kLegend);
+  const std::string result =
+      fmt::format("{}: {} steps of {:g} s, horizon {}, subgraph {} of {} trims, {} draws{}\n\n{}{}",
+                  any.name, any.steps, any.subgraph->automaton().step_s, any.horizon_steps,
+                  any.subgraph->spec().name, any.subgraph->spec().trims.size(), draws.size(),
+                  flags.max_levels ? fmt::format(", at most {} levels", *flags.max_levels) : "",
+                  table, kLegend);
+  fmt::print("{}", hlc::apps::fitted_table(result));
   if (!flags.out.empty()) write(flags, command, any, draws, std::move(cells));
   return 0;
 }

@@ -234,20 +234,20 @@ int run_joint(const Flags& flags) {
   hlc::apps::check_output_files({flags.plot}, {flags.file, file.automaton_file});
   hlc::joint_search::JointSearchOptions options;
   if (flags.max_expansions) options.max_expansions = *flags.max_expansions;
-  hlc::apps::JointSolution solution;
+  hlc::apps::TimedSolution timed;
   try {
     hlc::search::check_search_options(file.search);
-    solution = hlc::apps::solve(file, options);
+    timed = hlc::apps::solve(file, options);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(flags.file.string() + ": " + error.what());
   }
   if (flags.json) {
-    std::cout << hlc::apps::json_of(solution) << '\n';
+    std::cout << hlc::apps::json_of(timed) << '\n';
   } else {
-    hlc::apps::print(file, solution);
+    hlc::apps::print(file, timed);
   }
-  if (const int code = draw(flags, file, solution.joint); code != 0) return code;
-  return solution.joint.plans.empty() ? kExitFallback : 0;
+  if (const int code = draw(flags, file, timed.solution.joint); code != 0) return code;
+  return timed.solution.joint.plans.empty() ? kExitFallback : 0;
 }
 
 int run(const Flags& flags) {

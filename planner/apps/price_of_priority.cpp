@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/apps/fitted_table.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/interruption.hpp"
 #include "planner/apps/output_files.hpp"
@@ -154,35 +155,38 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-void print(const std::vector<Rule>& rules, const std::vector<Tally>& tallies) {
-  fmt::print("{:<26} {:>12} {:>9} {:>18} {:>8} {:>8}\n", "", "", "", "cost / optimum", "", "");
-  fmt::print("{:<26} {:>12} {:>9} {:>18} {:>8} {:>8}\n", "rule", "without plan", "optimal", "mean",
-             "p90", "max");
+std::string table_of(const std::vector<Rule>& rules, const std::vector<Tally>& tallies) {
+  std::string table =
+      fmt::format("{:<26} {:>12} {:>9} {:>18} {:>8} {:>8}\n", "", "", "", "cost / optimum", "", "");
+  table += fmt::format("{:<26} {:>12} {:>9} {:>18} {:>8} {:>8}\n", "rule", "without plan",
+                       "optimal", "mean", "p90", "max");
   for (std::size_t i = 0; i < rules.size(); ++i) {
     const auto& [ratios, without_plan] = tallies[i];
     const std::size_t all = ratios.size() + without_plan;
     const auto optimal =
         std::ranges::count_if(ratios, [](double ratio) { return ratio <= 1.0 + kSameCost; });
     const bool has_any = !ratios.empty();
-    fmt::print(
+    table += fmt::format(
         "{:<26} {:>12} {:>8.1f}% {:>18} {:>8} {:>8}\n", rules[i].name, without_plan,
         100.0 * static_cast<double>(optimal) / static_cast<double>(std::max<std::size_t>(all, 1)),
         mean_text(ratios), has_any ? fmt::format("{:.3f}", quantile(ratios, 0.9)) : "-",
         has_any ? fmt::format("{:.3f}", quantile(ratios, 1.0)) : "-");
   }
+  return table;
 }
 
-void print(const Totals& totals) {
-  fmt::print(
+std::string text_of(const Totals& totals) {
+  std::string text = fmt::format(
       "\n{} problems: {} without any joint plan, {} of which neither a plan nor a proof was found, "
       "{} whose best plan is not proven to be the optimum; the table counts the other {}.\n",
       totals.seconds.size(), totals.infeasible, totals.unknown, totals.unproven,
       totals.ratios_alone.size());
-  fmt::print("sum of the optima without each other / joint optimum: {}\n",
-             mean_text(totals.ratios_alone));
-  fmt::print("search for the joint optimum: median {:.4f} s, p90 {:.3f} s, max {:.2f} s\n",
-             quantile(totals.seconds, 0.5), quantile(totals.seconds, 0.9),
-             quantile(totals.seconds, 1.0));
+  text += fmt::format("sum of the optima without each other / joint optimum: {}\n",
+                      mean_text(totals.ratios_alone));
+  text += fmt::format("search for the joint optimum: median {:.4f} s, p90 {:.3f} s, max {:.2f} s\n",
+                      quantile(totals.seconds, 0.5), quantile(totals.seconds, 0.9),
+                      quantile(totals.seconds, 1.0));
+  return text;
 }
 
 void check_dump(const std::optional<std::filesystem::path>& folder) {
@@ -255,10 +259,7 @@ class Comparison {
     }
   }
 
-  void print() const {
-    ::print(rules_, tallies_);
-    ::print(totals_);
-  }
+  [[nodiscard]] std::string result() const { return table_of(rules_, tallies_) + text_of(totals_); }
   [[nodiscard]] const std::string& rows() const { return rows_; }
 
  private:
@@ -299,10 +300,11 @@ int run(const Flags& flags) {
     comparison.add(number, *problem);
     progress.show(number);
   }
-  fmt::print("{}: {} cars, horizon {}, subgraph {} of {} trims, seed {}\n\n", scenario.name,
-             flags.cars, scenario.horizon_steps, scenario.subgraph->spec().name,
-             scenario.subgraph->spec().trims.size(), flags.seed);
-  comparison.print();
+  const std::string heading =
+      fmt::format("{}: {} cars, horizon {}, subgraph {} of {} trims, seed {}\n\n", scenario.name,
+                  flags.cars, scenario.horizon_steps, scenario.subgraph->spec().name,
+                  scenario.subgraph->spec().trims.size(), flags.seed);
+  fmt::print("{}", hlc::apps::fitted_table(heading + comparison.result()));
   if (flags.rows.file) hlc::write_file(*flags.rows.file, comparison.rows());
   return 0;
 }

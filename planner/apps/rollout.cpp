@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <iterator>
@@ -12,8 +11,10 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
+#include "planner/apps/fitted_table.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/coordination/joint_gap.hpp"
 #include "planner/road/lap.hpp"
@@ -56,7 +57,8 @@ void add(Tally& tally, const hlc::coordination::Report& report, double step_s) {
   tally.last = report;
 }
 
-void print(const Tally& tally, const hlc::scenario::ScenarioVehicle& vehicle, double step_s) {
+std::string row_of(const Tally& tally, const hlc::scenario::ScenarioVehicle& vehicle,
+                   double step_s) {
   const hlc::road::Progress progress = hlc::road::progress_along(vehicle.path, tally.positions_m);
   std::vector<double> times_s;
   double sum_m = 0.0;
@@ -69,11 +71,10 @@ void print(const Tally& tally, const hlc::scenario::ScenarioVehicle& vehicle, do
   const std::optional<double> lap_s =
       hlc::road::lap_s(vehicle.path, progress, times_s, hlc::road::kFirstStepDriven);
   const std::string lap = lap_s ? fmt::format("{:.2f}", *lap_s) : "-";
-  std::printf("%-10s %8s %12.1f %11.1f %14llu %13llu %10d %8d %9.1f\n", vehicle.name.c_str(),
-              lap.c_str(), 1e3 * sum_m / static_cast<double>(times_s.size()), 1e3 * max_m,
-              static_cast<unsigned long long>(tally.generated_max),
-              static_cast<unsigned long long>(tally.expanded_max), tally.fallbacks, tally.changed,
-              tally.longest_wait_s);
+  return fmt::format("{:<10} {:>8} {:>12.1f} {:>11.1f} {:>14} {:>13} {:>10} {:>8} {:>9.1f}\n",
+                     vehicle.name, lap, 1e3 * sum_m / static_cast<double>(times_s.size()),
+                     1e3 * max_m, tally.generated_max, tally.expanded_max, tally.fallbacks,
+                     tally.changed, tally.longest_wait_s);
 }
 
 /// True if the plan of this step would be different without the other vehicles.
@@ -90,7 +91,8 @@ bool others_changed_the_plan(const hlc::controller::Controller& controller,
   return alone.search(problem).cost < report.cost_m2 - 1e-9;
 }
 
-void print_all(const std::map<hlc::VehicleId, Tally>& tallies, std::size_t steps, double step_s) {
+std::string line_of_all(const std::map<hlc::VehicleId, Tally>& tallies, std::size_t steps,
+                        double step_s) {
   double driven_m = 0.0;
   double planned = 0.0;
   double longest_wait_s = 0.0;
@@ -100,9 +102,38 @@ void print_all(const std::map<hlc::VehicleId, Tally>& tallies, std::size_t steps
     longest_wait_s = std::max(longest_wait_s, tally.longest_wait_s);
   }
   const auto car_steps = static_cast<double>(steps * tallies.size());
-  std::printf("all: %.3f m/s, new plans in %.1f %% of the steps, longest wait %.1f s\n",
-              driven_m / (step_s * (car_steps - static_cast<double>(tallies.size()))),
-              100.0 * planned / car_steps, longest_wait_s);
+  return fmt::format("all: {:.3f} m/s, new plans in {:.1f} % of the steps, longest wait {:.1f} s\n",
+                     driven_m / (step_s * (car_steps - static_cast<double>(tallies.size()))),
+                     100.0 * planned / car_steps, longest_wait_s);
+}
+
+std::string result_of(const hlc::scenario::Scenario& scenario,
+                      const std::map<hlc::VehicleId, Tally>& tallies,
+                      const std::vector<hlc::coordination::JointGap>& gaps) {
+  const double step_s = scenario.subgraph->automaton().step_s;
+  std::string text = fmt::format("{:<10} {:>8} {:>12} {:>11} {:>14} {:>13} {:>10} {:>8} {:>9}\n",
+                                 "vehicle", "lap [s]", "error [mm]", "max [mm]", "max generated",
+                                 "max expanded", "fallbacks", "changed", "wait [s]");
+  for (const auto& [id, tally] : tallies)
+    text += row_of(tally, hlc::scenario::vehicle_of(scenario, id), step_s);
+  text +=
+      "\nchanged: steps in which the others changed the vehicle's plan; wait: the longest, of a "
+      "vehicle that stood\nthough without the others it would have driven\n";
+  for (const auto& [id, tally] : tallies) {
+    if (!tally.last.arrived_since) continue;
+    text += fmt::format("vehicle {} arrived at its goal after {:.1f} s\n", id.value,
+                        step_s * static_cast<double>(tally.last.arrived_since->value - 1));
+  }
+  for (const auto& [id, tally] : tallies) {
+    if (!hlc::coordination::is_stuck(tally.last, step_s)) continue;
+    text += "stuck at the end: " + hlc::coordination::waiting_text(tally.last, step_s) + '\n';
+  }
+  text += line_of_all(tallies, scenario.steps, step_s);
+  if (const auto figures = hlc::coordination::joint_gap_figures(gaps)) {
+    text +=
+        "new plans of coupled vehicles, together: " + hlc::coordination::text_of(*figures) + '\n';
+  }
+  return text;
 }
 
 void lose_messages(hlc::rollout::Rollout& rollout, const Choices& choices) {
@@ -153,29 +184,8 @@ int run(const Choices& choices) {
   }
   const double wall_ms = 1e3 * std::chrono::duration<double>(wall).count();
 
-  std::printf("%-10s %8s %12s %11s %14s %13s %10s %8s %9s\n", "vehicle", "lap [s]", "error [mm]",
-              "max [mm]", "max generated", "max expanded", "fallbacks", "changed", "wait [s]");
-  for (const auto& [id, tally] : tallies)
-    print(tally, hlc::scenario::vehicle_of(scenario, id), step_s);
-  std::printf(
-      "changed: steps in which the others changed the vehicle's plan; wait: the longest, of a "
-      "vehicle that stood\nthough without the others it would have driven\n");
-  for (const auto& [id, tally] : tallies) {
-    if (!tally.last.arrived_since) continue;
-    std::printf("vehicle %d arrived at its goal after %.1f s\n", id.value,
-                step_s * static_cast<double>(tally.last.arrived_since->value - 1));
-  }
-  for (const auto& [id, tally] : tallies) {
-    if (!hlc::coordination::is_stuck(tally.last, step_s)) continue;
-    std::printf("stuck at the end: %s\n",
-                hlc::coordination::waiting_text(tally.last, step_s).c_str());
-  }
-  print_all(tallies, scenario.steps, step_s);
-  if (const auto figures = hlc::coordination::joint_gap_figures(gaps)) {
-    std::printf("new plans of coupled vehicles, together: %s\n",
-                hlc::coordination::text_of(*figures).c_str());
-  }
-  std::printf("%zu steps in %.1f ms\n", scenario.steps, wall_ms);
+  fmt::print("{}", hlc::apps::fitted_table(result_of(scenario, tallies, gaps)));
+  fmt::print("{} steps in {:.1f} ms\n", scenario.steps, wall_ms);
   return 0;
 }
 

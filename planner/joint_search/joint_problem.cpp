@@ -1,21 +1,8 @@
 #include "planner/joint_search/joint_problem.hpp"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-
 #include "planner/geometry/intersection.hpp"
-#include "planner/search/search_options.hpp"
 
 namespace hlc::joint_search {
-
-void check_cost_to_go(search::CostToGo cost_to_go) {
-  if (search::is_admissible(cost_to_go)) return;
-  throw std::invalid_argument(
-      fmt::format("cost_to_go = {}, must be reachable or straight_line for a joint problem: its "
-                  "optimum is bounded by that of each vehicle",
-                  search::to_string(cost_to_go)));
-}
 
 double cost_of(const JointPlan& plan) {
   double cost_m2 = 0.0;

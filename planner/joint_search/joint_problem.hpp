@@ -28,10 +28,6 @@ using JointProblem = std::vector<JointVehicle>;
 /// A plan per vehicle; or empty: none.
 using JointPlan = std::vector<search::SearchResult>;
 
-/// @throws std::invalid_argument naming it unless it is admissible: the joint optimum is bounded by
-/// that of each vehicle
-void check_cost_to_go(search::CostToGo cost_to_go);
-
 /// [m^2]
 [[nodiscard]] double cost_of(const JointPlan& plan);
 

@@ -18,7 +18,7 @@ bool is_read(std::string_view cdr, Wire& wire) {
   dds::SerializedPayload payload(static_cast<std::uint32_t>(cdr.size()));
   std::ranges::copy(cdr, reinterpret_cast<char*>(payload.data));
   payload.length = static_cast<std::uint32_t>(cdr.size());
-  return type.deserialize(&payload, &wire);
+  return dds::deserialize(type, payload, &wire);
 }
 
 template <class Message>
@@ -40,8 +40,8 @@ std::string serialized(std::mt19937_64& random) {
   const auto type = dds::type_support<Message>(dds::Transport::kLab);
   typename dds::Wire<Message>::Type wire;
   dds::to_wire(dds::sample<Message>(random), wire);
-  dds::SerializedPayload payload{type->getSerializedSizeProvider(&wire)()};
-  static_cast<void>(type->serialize(&wire, &payload));
+  dds::SerializedPayload payload{dds::serialized_size(*type, &wire)};
+  static_cast<void>(dds::serialize(*type, &wire, payload));
   return {reinterpret_cast<const char*>(payload.data), payload.length};
 }
 

@@ -50,7 +50,7 @@ apt() {
     return 1
   }
 }
-apt update || fail 3 "Debian 13 not reachable"
+apt update --error-on=any || fail 3 "Debian 13 not reachable"
 (cd "$fresh" && apt download fastddsgen libeprosima-idl-parser-java) || fail 4 "the generator could not be downloaded"
 for package in "$fresh"/*.deb; do
   dpkg-deb -x "$package" "$fresh" || fail 4 "$package could not be unpacked"

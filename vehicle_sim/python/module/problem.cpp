@@ -7,8 +7,7 @@
 #include <string>
 
 #include "planner/automaton/reachable_sets.hpp"
-#include "planner/joint_search/conflict_based_search.hpp"
-#include "planner/joint_search/prioritized.hpp"
+#include "planner/joint_search/joint_solution.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/scenario/joint_problem_file.hpp"
 #include "planner/scenario/problem_file.hpp"
@@ -86,30 +85,6 @@ py::object cost_or_none(const joint_search::JointPlan& plans) {
                        : py::object(py::float_(joint_search::cost_of(plans)));
 }
 
-struct JointSolution {
-  joint_search::JointPlan alone;
-  joint_search::JointPlan constant_order;
-  joint_search::JointPlan best_order;
-  joint_search::JointSearchResult joint;
-};
-
-JointSolution solve(const scenario::JointProblemFile& file,
-                    const joint_search::JointSearchOptions& options) {
-  const automaton::ReachableSets reachable(*file.subgraph, file.problems.front().horizon_steps());
-  const auto engine = search::make_search_engine(*file.subgraph, reachable, file.search);
-  joint_search::JointProblem problem;
-  for (const search::HorizonProblem& one : file.problems) {
-    problem.push_back({.problem = one, .engine = engine.get()});
-  }
-  JointSolution solution;
-  solution.alone = joint_search::plan_alone(problem);
-  solution.constant_order =
-      joint_search::plan_in_order(problem, joint_search::constant_order(problem.size()));
-  solution.best_order = joint_search::plan_in_best_order(problem);
-  solution.joint = joint_search::search_jointly(problem, options, solution.best_order);
-  return solution;
-}
-
 scenario::JointProblemFile read_joint(const std::filesystem::path& path,
                                       const std::optional<std::filesystem::path>& automaton,
                                       const SearchChoices& choices) {
@@ -121,7 +96,6 @@ scenario::JointProblemFile read_joint(const std::filesystem::path& path,
   try {
     choices.apply_to(file.search);
     search::check_search_options(file.search);
-    joint_search::check_cost_to_go(file.search.cost_to_go);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(path.string() + ": " + error.what());
   }
@@ -134,13 +108,17 @@ py::dict plan_joint_problem(const std::filesystem::path& path,
                             const std::optional<std::string>& cost_to_go,
                             std::optional<std::size_t> max_expansions) {
   scenario::JointProblemFile file;
-  JointSolution solution;
+  joint_search::JointSolution solution;
   {
     const py::gil_scoped_release release;
-    file = read_joint(path, automaton, {.engine = engine, .cost_to_go = cost_to_go});
     joint_search::JointSearchOptions options;
     if (max_expansions) options.max_expansions = *max_expansions;
-    solution = solve(file, options);
+    file = read_joint(path, automaton, {.engine = engine, .cost_to_go = cost_to_go});
+    try {
+      solution = joint_search::solve(*file.subgraph, file.search, file.problems, options);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(path.string() + ": " + error.what());
+    }
   }
   const joint_search::JointSearchResult& joint = solution.joint;
   const bool has_plan = !joint.plans.empty();
