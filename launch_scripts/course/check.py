@@ -11,6 +11,7 @@ import csv
 import importlib.util
 import json
 import math
+import os
 import pathlib
 import subprocess
 import sys
@@ -65,7 +66,9 @@ class Figure:
     def line(self):
         at = "at least" if self.asked > self.worst else "at most"
         reached = f"  {self.name:37} reached {self.reached:7.4g} {self.unit:4} "
-        return f"{reached}asked {at} {self.asked:.4g} {self.unit}".ljust(88) + f"{self.earned} of {self.points} points"
+        note = "" if self.counts else ", as the car hardly drives"
+        asked = f"{reached}asked {at} {self.asked:.4g} {self.unit}".ljust(88)
+        return f"{asked}{self.earned} of {self.points} points{note}"
 
 
 def short(value):
@@ -264,6 +267,8 @@ def grade_automaton(answer, given):
     trims = answer_in(answer, "TRIMS")
     if not isinstance(trims, (list, tuple)):
         raise Invalid(f"{answer}: TRIMS = {short(trims)}, must be a list of (speed [m/s], steering [rad])")
+    if not trims or numbers_in(answer, "TRIMS: entry 1 =", trims[0], 2)[0] != 0.0:
+        raise Invalid(f"{answer}: TRIMS = {short(trims)}, must begin with standstill: speed 0")
     trims = [tuple(numbers_in(answer, f"TRIMS: entry {i} =", one, 2).tolist()) for i, one in enumerate(trims, 1)]
     papers = hlc.load_scenario("paper_red_alone")
     given_run = [driven(papers, given.out / "as_given")]
@@ -354,6 +359,10 @@ def main():
     except (Invalid, hlc.Error, OSError) as refused:
         print(f"check.py: {refused}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        print("check.py: interrupted; the same command begins from the start, --out needs a new or empty folder",
+              file=sys.stderr)
+        return 130
     is_reached = not failure and all(one.is_reached for one in figures)
     earned = sum(one.earned for one in figures)
     if given.json:
@@ -367,5 +376,19 @@ def main():
     return 0 if is_reached else 1
 
 
+def exit_code():
+    try:
+        code = main()
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:  # who reads needs no more
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 2
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        print(f"check.py: standard output: cannot be written ({error.strerror})", file=sys.stderr)
+        return 2
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(exit_code())

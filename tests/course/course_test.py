@@ -102,6 +102,15 @@ class CourseTest(unittest.TestCase):
     def test_a_car_that_stands_gets_no_points_for_its_few_trims(self):
         done = graded("automaton", "--answer", self.written("TRIMS = [(0.0, 0.0)]\n"), "--json")
         self.assertEqual((done.returncode, json.loads(done.stdout)["points"]), (1, 0))
+        done = graded("automaton", "--answer", self.written("TRIMS = [(0.0, 0.0)]\n"))
+        self.assertRegex(done.stdout, r"(?m)^  trims +reached +1 .* 0 of 6 points, as the car hardly drives$")
+
+    def test_an_output_that_cannot_be_written_is_named(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([sys.executable, COURSE / "check.py", "trim"], stdout=full, stderr=subprocess.PIPE,
+                                  text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"\Acheck.py: standard output: cannot be written[^\n]*\n\Z")
 
     def test_the_table_has_what_was_reached_and_what_is_asked(self):
         done = graded("automaton")
@@ -129,6 +138,8 @@ class CourseTest(unittest.TestCase):
                  ("priority", "def rule(situation):\n    return [99]\n", "the function returned .99., must be"),
                  ("priority", "def rule(_):\n    return no_such_name\n", r"answer.py:2: raised NameError"),
                  ("automaton", "TRIMS = 3\n", "TRIMS = 3, must be a list"),
+                 ("automaton", "TRIMS = []\n", r"TRIMS = \[\], must begin with standstill"),
+                 ("automaton", "TRIMS = [(0.8, 0.0), (0.0, 0.0)]\n", "must begin with standstill: speed 0"),
                  ("automaton", "TRIMS = [(0, 0), 3]\n", r"TRIMS: entry 2 = 3, must be 2 finite numbers"),
                  ("automaton", "TRIMS = [(0.0, 0.0), (99.0, 0.0)]\n", r"TRIMS: trims\[2\].speed_mps = 99"),
                  ("crossing", "raise SystemExit(0)\n", r"answer.py:1: raised SystemExit"),

@@ -194,12 +194,33 @@ class RunTest(unittest.TestCase):
             self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
             self.assertIn(run.trace_sha256, again.stdout)
 
+    def test_arguments_of_a_wrong_type_are_named(self):
+        cases = [("scenario = 'circle', must be one of load_scenario", lambda: hlc.drive("circle")),
+                 ("scenario = None, must be", lambda: hlc.rollout(None)),
+                 ("scenario = 'circle', must be", lambda: hlc.Environments("circle", 2)),
+                 ("run = 'my_run', must be one of drive", lambda: hlc.replay("my_run")),
+                 ("forks = 'priorities=3', must be a list", lambda: hlc.drive(self.three, forks="priorities=3")),
+                 ("forks: entry = 3, must be", lambda: hlc.drive(self.three, forks=[3])),
+                 ("Fork.changes = 'speed=1:0.4', must be a list",
+                  lambda: hlc.drive(self.three, forks=[hlc.Fork(5, "speed=1:0.4")])),
+                 ("priorities = 'random', must be a function", lambda: hlc.drive(self.three, priorities="random")),
+                 ("priorities = .*, must be the name of one of our strategies",
+                  lambda: hlc.load_scenario("circle", priorities=lambda situation: situation.vehicles)),
+                 ("subgraph = 3, must be a name", lambda: hlc.load_scenario("circle", subgraph=3)),
+                 ("values = .1., must be a dict", lambda: hlc.load_scenario("circle", values=[1])),
+                 ("scenarios = None, must be a path", lambda: hlc.load_scenario(None)),
+                 ("out = 5, must be a path", lambda: hlc.drive(self.three, out=5))]
+        for message, call in cases:
+            with self.subTest(message=message), self.assertRaisesRegex(hlc.Error, message):
+                call()
+
     def test_a_folder_with_files_is_refused_and_kept(self):
         with tempfile.TemporaryDirectory() as folder:
             note = Path(folder) / "note.txt"
             note.write_text("mine")
             for out in (folder, note, note / "below"):
-                with self.subTest(out=out), self.assertRaisesRegex(hlc.Error, f"out = {out}, must be a (new|folder that can)"):
+                refused = self.assertRaisesRegex(hlc.Error, f"out = {out}, must be a (new|folder that can)")
+                with self.subTest(out=out), refused:
                     hlc.drive(self.three, out=out)
             self.assertEqual(note.read_text(), "mine")
         with self.assertRaisesRegex(hlc.Error, "must be one of drive"):

@@ -26,7 +26,7 @@ def find(path_or_name: PathLike, kind: str, extension: str) -> Path:
 
     kind: folder of data_folder(), for example "scenarios".
     """
-    given = Path(path_or_name)
+    given = as_path(kind, path_or_name)
     if given.is_file() or given.suffix or len(given.parts) != 1:
         return given
     folder = data_folder() / kind
@@ -43,3 +43,17 @@ def check_whole(name: str, value: object, least: int, most: int) -> None:
         return
     if isinstance(value, bool) or not isinstance(value, SupportsIndex) or not least <= int(value) <= most:
         raise Error(f"{name} = {value!r}, must be a whole number in {least} ... {most}")
+
+
+def check_is(name: str, value: object, allowed: Union[type, tuple[type, ...]], what: str) -> None:
+    """Raises Error unless the value is of an allowed type."""
+    if not isinstance(value, allowed):
+        raise Error(f"{name} = {value!r}, must be {what}")
+
+
+def as_path(name: str, value: object) -> Path:
+    """Raises Error unless the value is a path."""
+    try:
+        return Path(value)  # type: ignore[arg-type]
+    except TypeError as error:
+        raise Error(f"{name} = {value!r}, must be a path") from error

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hlc import _core
-from hlc.files import check_whole
+from hlc.files import check_is, check_whole
 from hlc.scenarios import MOST_SEED, MOST_STEPS, Scenario
 
 
@@ -53,6 +53,7 @@ class Environments:
         """random_starts: False: the scenario's. Raises Error if the scenario has guests."""
         check_whole("num_environments", num_environments, 1, 1_000_000)
         check_whole("episode_steps", episode_steps, 1, MOST_STEPS)
+        check_is("scenario", scenario, Scenario, "one of load_scenario")
         self._core = _core.Environments(scenario._core, num_environments, episode_steps, random_starts)
         self.num_environments: int = num_environments
         self.num_cars: int = self._core.num_cars

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hlc import _core
-from hlc.files import PathLike, check_whole
+from hlc.files import PathLike, as_path, check_is, check_whole
 from hlc.scenarios import MOST_STEPS, PriorityRule, Scenario, core_rule
 
 if TYPE_CHECKING:
@@ -128,7 +128,8 @@ def rollout(scenario: Scenario, *, steps: Optional[int] = None, priorities: Opti
     The interpreter's lock is released: runs in several threads run at the same time. Raises Error.
     """
     check_whole("steps", steps, 1, MOST_STEPS)
-    found = _core.rollout(scenario._core, steps, core_rule(priorities, scenario))
+    rule = core_rule(priorities, scenario)
+    found = _core.rollout(scenario._core, steps, rule)
     return _run_of(scenario, found, {"steps": steps, "priorities": priorities})
 
 
@@ -146,11 +147,11 @@ def drive(scenario: Scenario, *, steps: Optional[int] = None, priorities: Option
     """
     check_whole("steps", steps, 1, MOST_STEPS)
     check_whole("noise_seed", noise_seed, 0, 10**12)
-    for one in forks:
-        check_whole("Fork.from_step", one.from_step, 0, MOST_STEPS)
-    found = _core.drive(scenario._core, steps, core_rule(priorities, scenario), noise_seed,
+    check_forks(forks)
+    rule = core_rule(priorities, scenario)
+    found = _core.drive(scenario._core, steps, rule, noise_seed,
                         [_core.ForkText(one.from_step, list(one.changes)) for one in forks],
-                        None if out is None else Path(out))
+                        None if out is None else as_path("out", out))
     return _run_of(scenario, found,
                    {"steps": steps, "priorities": priorities, "noise_seed": noise_seed, "forks": tuple(forks)}, out)
 
@@ -163,6 +164,8 @@ def replay(run: Run, *, forks: Sequence[Fork] = (), steps: Optional[int] = None,
     steps: drive only so many
     out: as for drive
     """
+    check_is("run", run, Run, "one of drive")
+    check_forks(forks)
     if run.trajectory_columns is None:
         raise _core.Error("run: is a rollout, must be one of drive")
     arguments = dict(run.arguments)
@@ -170,6 +173,17 @@ def replay(run: Run, *, forks: Sequence[Fork] = (), steps: Optional[int] = None,
     if steps is not None:
         arguments["steps"] = steps
     return drive(run.scenario, **arguments, out=out)
+
+
+def check_forks(forks: Sequence[Fork]) -> None:
+    """Raises Error unless they are forks, whose changes are texts."""
+    check_is("forks", forks, (list, tuple), "a list of hlc.Fork")
+    for one in forks:
+        check_is("forks: entry", one, Fork, "a hlc.Fork")
+        check_whole("Fork.from_step", one.from_step, 0, MOST_STEPS)
+        check_is("Fork.changes", one.changes, (list, tuple), "a list of texts")
+        for text in one.changes:
+            check_is("Fork.changes: entry", text, str, "a text")
 
 
 def _run_of(scenario: Scenario, found: dict[str, Any], arguments: dict[str, Any],

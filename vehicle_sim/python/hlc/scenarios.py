@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hlc import _core
-from hlc.files import PathLike, check_whole, find
+from hlc.files import PathLike, check_is, check_whole, find
 
 MOST_STEPS = 100_000
 MOST_SEED = 1_000_000_000
@@ -134,6 +134,16 @@ def load_scenario(scenario: PathLike, *, values: Optional[Mapping[str, Any]] = N
 
     Raises Error.
     """
+    if callable(priorities):
+        raise _core.Error(f"priorities = {priorities!r}, must be the name of one of our strategies; an own one is an "
+                          "argument of drive and rollout")
+    names = {"profile": profile, "priorities": priorities, "subgraph": subgraph, "policy": policy, "engine": engine,
+             "routes": routes}
+    for name, value in names.items():
+        if value is not None:
+            check_is(name, value, str, "a name")
+    if values is not None:
+        check_is("values", values, Mapping, "a dict of scenario keys")
     check_whole("steps", steps, 1, MOST_STEPS)
     check_whole("cars", cars, 1, 255)
     check_whole("seed", seed, 0, MOST_SEED)
@@ -153,10 +163,11 @@ def load_scenario(scenario: PathLike, *, values: Optional[Mapping[str, Any]] = N
 
 def core_rule(rule: Optional[PriorityRule], scenario: Scenario) -> Optional[Callable[..., Sequence[int]]]:
     """The rule as _core calls it: with arrays and lists."""
+    check_is("scenario", scenario, Scenario, "one of load_scenario")
     if rule is None:
         return None
     if not callable(rule):
-        raise TypeError(f"priorities = {rule!r}, must be a function; our strategies by name: load_scenario")
+        raise _core.Error(f"priorities = {rule!r}, must be a function; our strategies by name: load_scenario")
     speeds_mps = scenario.trims[:, 0]
 
     def called(ids: NDArray[np.int64], coupled: list[list[int]], poses: NDArray[np.float64], trims: NDArray[np.int64],
