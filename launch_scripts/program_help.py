@@ -61,10 +61,12 @@ def read(command: str, bin_folder: str = BIN) -> Help:
     """@param command  path of a script from the root, or name of a program in `bin_folder`, perhaps with a subcommand"""
     path, *subcommand = command.split()
     path = path if "/" in path else os.path.join(bin_folder, path)
+    if not (ROOT / path).is_file():
+        raise RuntimeError(f"{path}: is missing, all programs must be built (launch_scripts/build.sh)")
     done = subprocess.run([str(ROOT / path), *subcommand, "--help"], env={**os.environ, "COLUMNS": "100"}, cwd=ROOT,
                           check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != 0:
-        raise RuntimeError(f"{path} --help: exit code {done.returncode}, must be 0: {done.stdout}")
+        raise RuntimeError(f"{path} --help: exit code {done.returncode}, must be 0: {' '.join(done.stdout.split())[:200]}")
     head, _, tail = done.stdout.partition("\nExamples:\n")
     examples = tuple(line.strip() for line in tail.splitlines() if line.startswith("  "))
     return Help(text=done.stdout, sentence=_sentence(done.stdout), flags=_flags(head), examples=examples)

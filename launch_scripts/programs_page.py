@@ -62,10 +62,14 @@ def main() -> int:
     try:
         text = page()
     except (OSError, RuntimeError, ValueError) as error:
-        print(f"programs_page.py: {error}; all programs must be built: launch_scripts/build.sh", file=sys.stderr)
+        print(f"programs_page.py: {error}", file=sys.stderr)
         return 2
     if not flags.check:
-        PAGE.write_text(text, encoding="utf-8")
+        try:
+            PAGE.write_text(text, encoding="utf-8")
+        except OSError as error:
+            print(f"programs_page.py: {error}", file=sys.stderr)
+            return 2
     elif not PAGE.exists() or PAGE.read_text(encoding="utf-8") != text:
         print(f"{PAGE.name} is out of date: launch_scripts/programs_page.py writes it", file=sys.stderr)
         return 1
