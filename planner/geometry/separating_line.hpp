@@ -14,10 +14,15 @@ struct SeparatingLine {
   friend bool operator==(const SeparatingLine&, const SeparatingLine&) = default;
 };
 
-/// The line through a corner of `behind`, all of which lies behind it, of the direction with the
-/// largest gap to `beyond`, which lies beyond it: the separating axis theorem, over the normals of
-/// the edges of both, O((m + n)^2). None: the polygons overlap by more than `tolerance_m` in every
-/// such direction, or one is empty. @pre tolerance_m >= 0
+/// A gap this wide is as good as a wider one: far above what rounding moves a line or a corner by.
+inline constexpr double kWideGap_m = 0.01;
+
+/// The line through a corner of `behind`, all of which lies behind it, with a gap to `beyond`,
+/// which lies beyond it: the separating axis theorem, over the normals of the edges of both, O((m +
+/// n)^2). Its direction is the first one with a gap of at least kWideGap_m, or that with the
+/// largest gap. None: the polygons overlap by more than `tolerance_m` in every such direction, or
+/// one is empty.
+/// @pre tolerance_m >= 0
 [[nodiscard]] std::optional<SeparatingLine> separating_line(const ConvexPolygon& behind,
                                                             const ConvexPolygon& beyond,
                                                             double tolerance_m);

@@ -30,10 +30,20 @@ TEST(SeparatingLine, TouchesTheFirstPolygonAndPointsToTheSecond) {
   EXPECT_NEAR(back->offset_m, -2.5, 1e-12);
 }
 
-TEST(SeparatingLine, HasTheDirectionOfTheLargestGap) {
+TEST(SeparatingLine, HasTheDirectionOfTheLargestGapWhereNoneIsWide) {
+  const double narrow_m = 1.0 + 0.5 * kWideGap_m;
+  const auto up = separating_line(square_at(0.0, 0.0), square_at(0.9, narrow_m), 0.0);
+  ASSERT_TRUE(up);
+  EXPECT_NEAR(up->direction_rad, 0.5 * std::numbers::pi, 1e-12);
+  const auto wider = separating_line(square_at(0.0, 0.0), square_at(narrow_m, 1.001), 0.0);
+  ASSERT_TRUE(wider);
+  EXPECT_NEAR(wider->direction_rad, 0.0, 1e-12);
+}
+
+TEST(SeparatingLine, HasTheFirstDirectionWithAWideGap) {
   const auto line = separating_line(square_at(0.0, 0.0), square_at(1.1, 4.0), 0.0);
   ASSERT_TRUE(line);
-  EXPECT_NEAR(line->direction_rad, 0.5 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(line->direction_rad, 0.0, 1e-12) << "the edge to the right is before the upper one";
 }
 
 TEST(SeparatingLine, ExistsUpToTheTolerance) {
