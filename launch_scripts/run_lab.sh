@@ -175,7 +175,7 @@ check_new_or_empty() { # flag, folder
 [[ -z $out ]] || check_new_or_empty out "$out"
 [[ -z $dump_problems ]] || check_new_or_empty dump_problems "$dump_problems"
 
-# What show_scenario says of wrong values, as far as it can be said without it: whoever has to build first waits for
+# The checks of show_scenario as far as they are possible without it: whoever has to build first waits for
 # minutes. Where these find nothing, show_scenario still may.
 mentions() { ! $build || grep -qsw -e "$1" "$scenario"; }
 check_priorities() { # by the sources that are built

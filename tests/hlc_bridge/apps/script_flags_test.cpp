@@ -1,4 +1,4 @@
-// What the launch scripts say before they build or start anything.
+// What the launch scripts refuse before they build or start anything.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ void put_script(const fs::path& file, const std::string& lines) {
   fs::permissions(file, fs::perms::owner_all);
 }
 
-/// A clone in which nothing is built, with a setup.sh and a build.sh that only say that they ran.
+/// A clone in which nothing is built, with a setup.sh and a build.sh that only print a word.
 class FreshClone : public testing::Test {
  protected:
   void SetUp() override {
@@ -119,7 +119,7 @@ TEST(OtherScripts, NameAnUnknownFlagAtTheEndAsUnknown) {
   }
 }
 
-/// build.sh with a cmake that only says what the build tool of a build tree would do.
+/// build.sh with a cmake that only prints what the build tool of a build tree would do.
 class BuildScript : public FreshClone {
  protected:
   [[nodiscard]] std::string output_with(const std::string& planned) const {
