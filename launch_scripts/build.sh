@@ -62,12 +62,13 @@ fi
 : >"$log"
 start=$SECONDS
 run cmake --preset "$preset"
+has_to_compile() { grep -q 'Building CXX' <(cmake --build --preset "$preset" "${targets[@]}" -- -n 2>&1); }
 if [[ -t 1 ]]; then # one line that is rewritten
   progress() { awk '/^\[/ {printf "\r\033[KBuilding %s", $1; fflush()} END {printf "\r\033[K"}'; }
   build() { cmake --build --preset "$preset" "${targets[@]}" 2>&1 | tee -a "$log" | progress >&3; }
   run build 3>&1
 else
-  echo "Building ($preset), the first time takes a few minutes ..."
+  if has_to_compile; then echo "Building ($preset), the first time takes a few minutes ..."; fi
   run cmake --build --preset "$preset" "${targets[@]}"
 fi
 if ((SECONDS - start > 5)); then echo "Built ($preset) in $((SECONDS - start)) s"; fi

@@ -29,16 +29,18 @@ while (($#)); do
     -h | --help) usage; exit 0 ;;
     --version) exec "$here/version.sh" make_security.sh ;;
     --*=*) name=${1%%=*} value=${1#*=} ;;
-    --*) name=$1 value=${2-}
-      (($# >= 2)) || fail "$1 needs a value"
-      shift ;;
+    --*) name=$1 value=${2-} ;;
     *) fail "unexpected argument $1 (see --help)" ;;
   esac
-  shift
   case "$name" in
     --vehicle_ids | --out | --days) printf -v "${name#--}" '%s' "$value" ;;
     *) fail "unknown flag $name (see --help)" ;;
   esac
+  if [[ $1 != *=* ]]; then
+    (($# >= 2)) || fail "$name needs a value"
+    shift
+  fi
+  shift
 done
 [[ $vehicle_ids =~ ^[0-9]{1,2}(,[0-9]{1,2})*$ ]] || fail "--vehicle_ids = $vehicle_ids, must be numbers in 1 ... 30"
 ids=()

@@ -87,24 +87,33 @@ while (($#)); do
     --no_build) build=false; shift; continue ;;
     --view) view=true; shift; continue ;;
     --*=*) name=${1%%=*} value=${1#*=} ;;
-    --*) name=$1 value=${2-}
-      (($# >= 2)) || fail "$1 needs a value"
-      shift ;;
+    --*) name=$1 value=${2-} ;;
     *) fail "unexpected argument $1 (see --help)" ;;
   esac
-  shift
-  name=${name#--}
-  if [[ $name == dump-problems ]]; then # up to the last release
+  [[ $name != --dump-problems ]] || { # up to the last release
     echo "run_lab.sh: --dump-problems is now --dump_problems" >&2
-    name=dump_problems
-  fi
-  [[ $name != dump_problems || -n $value ]] || fail "--dump_problems = , must be a new or an empty folder"
-  case "$name" in
+    name=--dump_problems
+  }
+  case "${name#--}" in
     scenario | commonroad | from_standstill | profile | engine | priorities | dump_problems | subgraph | policy | map | cars | seed | routes | steps | \
       simulated_time | noise_seed | gains_scale | stamps | on_death | transport | dds_domain | out | preset | bin | \
-      share | page | messages | security | startup_timeout_s | log_level) printf -v "$name" '%s' "$value" ;;
-    *) fail "unknown flag --$name (see --help)" ;;
+      share | page | messages | security | startup_timeout_s | log_level) ;;
+    *) fail "unknown flag $name (see --help)" ;;
   esac
+  if [[ $1 != *=* ]]; then
+    (($# >= 2)) || fail "$name needs a value"
+    shift
+  fi
+  shift
+  if [[ -z $value ]]; then
+    case "$name" in
+      --out | --dump_problems) fail "$name = , must be a new or an empty folder" ;;
+      --scenario) fail "$name = , must be a scenario file or the name of one" ;;
+      --security) ;; # without, whatever HLC_SECURITY is
+      *) fail "$name = , must not be empty" ;;
+    esac
+  fi
+  printf -v "${name#--}" '%s' "$value"
 done
 [[ $simulated_time == true || $simulated_time == false ]] ||
   fail "--simulated_time = $simulated_time, must be one of true, false"
@@ -121,6 +130,7 @@ for name in cars seed steps noise_seed dds_domain startup_timeout_s; do whole_nu
 in_range() { # flag, value, from, to
   [[ -z $2 ]] || ((10#$2 >= $3 && 10#$2 <= $4)) || fail "--$1 = $2, must be in $3 ... $4"
 }
+in_range cars "$cars" 1 30
 in_range steps "$steps" 1 10000
 in_range startup_timeout_s "$startup_timeout_s" 1 3000
 in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
@@ -153,9 +163,35 @@ fi
 [[ ! -e $scenario || $scenario == /* ]] || scenario=$PWD/$scenario
 [[ -e $scenario ]] || scenario=$here/scenarios/${scenario%.yaml}.yaml
 [[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$here/scenarios" && echo *.yaml)"
-
+[[ ! -d $scenario ]] || fail "--scenario = $scenario is a folder, must be a scenario file"
 [[ -n $bin ]] || bin=$programs
 [[ -z $bin ]] || build=false
+
+required="must be a new or an empty folder"
+check_new_or_empty() { # flag, folder
+  [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is not a folder, $required"
+  [[ -z $(ls -A -- "$2" 2>/dev/null) ]] || fail "--$1 = $2 is not empty, $required"
+}
+[[ -z $out ]] || check_new_or_empty out "$out"
+[[ -z $dump_problems ]] || check_new_or_empty dump_problems "$dump_problems"
+
+# The checks of show_scenario as far as they are possible without it: whoever has to build first waits for
+# minutes. Where these find nothing, show_scenario still may.
+mentions() { ! $build || grep -qsw -e "$1" "$scenario"; }
+check_priorities() { # by the sources that are built
+  local names
+  names=$(sed -n 's/.*\.name = "\([^"]*\)".*/\1/p' "$root"/planner/coordination/priorities/*.cpp)
+  grep -qxF -e "$priorities" <<<"$names" || fail "--priorities = $priorities, must be one of ${names//$'\n'/, }"
+}
+[[ -z $map || (-r $map && ! -d $map) ]] || fail "--map = $map: cannot be read, must be a CommonRoad file"
+[[ -z $map ]] || mentions map || ! mentions circle ||
+  fail "--map: $scenario is a scenario without lanes; must be a scenario with \`map\`"
+[[ -z $cars ]] || mentions circle || mentions draw ||
+  fail "--cars: $scenario has named vehicles; must be a scenario with \`circle\` or \`draw\`"
+[[ -z $seed || -n $routes ]] || mentions draw || mentions random ||
+  fail "--seed: $scenario has nothing to draw; must be a scenario with \`draw\` or random routes"
+[[ -z $priorities ]] || ! $build || check_priorities
+
 build_programs() { ! $build || "$here/build.sh" --preset "$preset" "$1" || exit 1; }
 if $build; then
   "$here/setup.sh" || exit 1
@@ -248,11 +284,6 @@ else
   [[ -n $dds_domain ]] || fail "no free block of $((largest_id + 1)) DDS domains in 1 ... 50; give --dds_domain"
 fi
 
-required="must be a new or an empty folder"
-check_new_or_empty() { # flag, folder
-  [[ ! -e $2 || -d $2 ]] || fail "--$1 = $2 is not a folder, $required"
-  [[ -z $(ls -A -- "$2" 2>/dev/null) ]] || fail "--$1 = $2 is not empty, $required"
-}
 made=()
 make_folder() { # flag, folder
   local probe
@@ -266,8 +297,6 @@ make_folder() { # flag, folder
     fail "--$1 = $2: not writable, $required that is writable"
   fi
 }
-[[ -z $out ]] || check_new_or_empty out "$out"
-[[ -z $dump_problems ]] || check_new_or_empty dump_problems "$dump_problems"
 [[ -z $out ]] || make_folder out "$out" # first: may contain the problems
 if [[ -n $dump_problems ]]; then
   make_folder dump_problems "$dump_problems"

@@ -82,19 +82,21 @@ take_flags() {
       -h | --help) usage; exit 0 ;;
       --version) exec "$here/version.sh" vehicle.sh ;;
       --*=*) name=${1%%=*} value=${1#*=} ;;
-      --*) name=$1 value=${2-}
-        (($# >= 2)) || fail "$1 needs a value"
-        shift ;;
+      --*) name=$1 value=${2-} ;;
       *) fail "unexpected argument $1 (see --help)" ;;
     esac
-    shift
     name=${name#--}
     case "$name" in # up to the last release
       id) renamed vehicle_ids ;;
       dump-problems) renamed dump_problems ;;
     esac
-    [[ $name != dump_problems || -n $value ]] || fail "--dump_problems = , must be a folder"
     [[ $name =~ ^(out|only|bin)$ || " ${kept_flags[*]} " == *" $name "* ]] || fail "unknown flag --$name (see --help)"
+    if [[ $1 != *=* ]]; then
+      (($# >= 2)) || fail "--$name needs a value"
+      shift
+    fi
+    shift
+    [[ $name != dump_problems || -n $value ]] || fail "--dump_problems = , must be a folder"
     printf -v "$name" '%s' "$value"
   done
 }

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
@@ -353,8 +354,9 @@ class Asker {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  CLI::App app{"Asks controllers to plan on another part of their automaton, while they drive.",
-               "automaton_request"};
+  hlc::apps::Command app{
+      "Asks controllers to plan on another part of their automaton, while they drive.",
+      "automaton_request"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv,

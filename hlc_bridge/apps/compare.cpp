@@ -12,6 +12,7 @@
 #include "hlc_bridge/record/start_differences.hpp"
 #include "hlc_bridge/result/run_comparison.hpp"
 #include "hlc_bridge/view/comparison_page.hpp"
+#include "planner/apps/fitted_table.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
 #include "planner/common/text_file.hpp"
@@ -37,6 +38,13 @@ std::optional<hlc::road::LaneletMap> map_of(const hlc::record::RunFolder& run) {
   return hlc::road::read_lanelet_map(*run.scenario.map_file);
 }
 
+/// For the terminal: sentences up to the first empty line, then tables.
+std::string fitted(const std::string& text) {
+  const std::size_t tables = text.find("\n\n") + 1;
+  return hlc::apps::fitted_lines(text.substr(0, tables)) +
+         hlc::apps::fitted_table(text.substr(tables));
+}
+
 /// Returns the exit code.
 int compare_runs(const std::filesystem::path& folder_a, const std::filesystem::path& folder_b,
                  const hlc::apps::OutputFile& html) {
@@ -53,14 +61,14 @@ int compare_runs(const std::filesystem::path& folder_a, const std::filesystem::p
   const hlc::result::RunComparison comparison =
       hlc::result::compare(compared(std::move(a)), compared(std::move(b)), std::move(started));
   if (html.file) hlc::write_file(*html.file, hlc::view::comparison_page(comparison, map_a, map_b));
-  std::cout << hlc::result::comparison_text(comparison);
+  std::cout << fitted(hlc::result::comparison_text(comparison));
   return comparison.are_equal() ? hlc::kExitGood : kExitDifferent;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  hlc::apps::Command app{
       "Compares two runs: how their starts differ, the first step and vehicle in which they differ "
       "and in what (reports, input, messages, plan), the main numbers side by side.",
       "compare"};

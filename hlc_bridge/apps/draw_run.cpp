@@ -10,7 +10,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "hlc_bridge/messages/exit_codes.hpp"
@@ -268,7 +270,7 @@ int draw(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  hlc::apps::Command app{
       "Draws a run as its page shows it: a moment as a picture (--at_s, --out), or some time as a "
       "video (--video). Needs chromium, and ffmpeg for a video.",
       "draw_run"};

@@ -19,8 +19,10 @@
 #include "hlc_bridge/result/run_description.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
+#include "planner/apps/scenario_flags.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/road/lanelet_map.hpp"
+#include "planner/scenario/scenario.hpp"
 
 namespace {
 
@@ -97,7 +99,7 @@ std::string export_run(const std::filesystem::path& run,
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  hlc::apps::Command app{
       "Writes a run as a CommonRoad 2020a file: the map, a planning problem per vehicle, planned "
       "and driven motion every 10 ms.",
       "export_commonroad"};

@@ -22,6 +22,7 @@
 #include "hlc_bridge/process/hlc_process.hpp"
 #include "hlc_bridge/time/precedence.hpp"
 #include "hlc_bridge/time/wall_time.hpp"
+#include "planner/apps/scenario_flags.hpp"
 #include "planner/maneuver_design/built_automaton.hpp"
 #include "planner/scenario/problem_dump.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -166,8 +167,9 @@ std::shared_ptr<hlc::process::HlcProcess> make_process(const Flags& flags,
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  CLI::App app{"High-level controller: plans one vehicle's motion and agrees with the others.",
-               "high_level_controller"};
+  hlc::apps::Command app{
+      "High-level controller: plans one vehicle's motion and agrees with the others.",
+      "high_level_controller"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) return *code;

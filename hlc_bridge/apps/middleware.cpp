@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "hlc_bridge/apps/flags.hpp"
@@ -96,8 +97,8 @@ hlc::process::MiddlewareOptions process_options(const Flags& flags) {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  CLI::App app{"Middleware: vehicle states to a controller, its commands to the vehicle.",
-               "middleware"};
+  hlc::apps::Command app{"Middleware: vehicle states to a controller, its commands to the vehicle.",
+                         "middleware"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) {

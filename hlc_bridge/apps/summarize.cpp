@@ -4,9 +4,11 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,8 @@
 #include "hlc_bridge/view/foxglove_channels.hpp"
 #include "hlc_bridge/view/run_page.hpp"
 #include "planner/apps/fitted_table.hpp"
+#include "planner/apps/scenario_flags.hpp"
+#include "planner/common/program_version.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/common/yaml_text.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -128,8 +132,9 @@ int summarize_run(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Result of a run: table, summary.json, steps.csv, timing.csv, run.html, run.mcap.",
-               "summarize"};
+  hlc::apps::Command app{
+      "Result of a run: table, summary.json, steps.csv, timing.csv, run.html, run.mcap.",
+      "summarize"};
   Choices choices;
   hlc::apps::declare_run(app, choices.run);
   hlc::apps::declare_scenario_flags(app, choices.given.scenario);

@@ -19,6 +19,9 @@
 #include "hlc_bridge/time/real_time.hpp"
 #include "hlc_bridge/view/live_messages.hpp"
 #include "hlc_bridge/view/live_scene.hpp"
+#include "planner/apps/scenario_flags.hpp"
+#include "planner/common/program_version.hpp"
+#include "planner/scenario/scenario.hpp"
 
 namespace {
 
@@ -202,7 +205,7 @@ class View {
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
   spdlog::set_default_logger(spdlog::stderr_color_mt("view"));
-  CLI::App app{"Shows a run under way in browsers: prints the page's address.", "view"};
+  hlc::apps::Command app{"Shows a run under way in browsers: prints the page's address.", "view"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;

@@ -3,12 +3,24 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
-#include <regex>
 #include <stdexcept>
 
 namespace hlc::dds {
 namespace {
+
+/// 12 bytes in hexadecimal with dots between them. Without <regex>, which takes seconds to compile.
+bool is_guid_prefix(const std::string& text) {
+  constexpr std::size_t kLength = 12 * 3 - 1;
+  if (text.size() != kLength) return false;
+  for (std::size_t i = 0; i < kLength; ++i) {
+    if (i % 3 == 2 ? text[i] != '.' : std::isxdigit(static_cast<unsigned char>(text[i])) == 0) {
+      return false;
+    }
+  }
+  return true;
+}
 
 /// @param what  value and bound
 [[noreturn]] void refuse(const std::string& flag, const std::string& what) {
@@ -89,8 +101,7 @@ std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
     }
     return std::nullopt;
   }
-  static const std::regex kPrefix{"[0-9a-fA-F]{2}(\\.[0-9a-fA-F]{2}){11}"};
-  if (!std::regex_match(server_id, kPrefix)) {
+  if (!is_guid_prefix(server_id)) {
     refuse(
         "--discovery_server_id",
         fmt::format("\"{}\", must be 12 bytes in hexadecimal with dots between them", server_id));

@@ -142,6 +142,12 @@ scenario::ScenarioChoices kept_choices(const fs::path& run_folder) {
   choices.profile = flags.required<std::string>("profile");
   choices.engine = text_or_null(flags, "engine");
   choices.priorities = text_or_null(flags, "priorities");
+  if (choices.priorities == kRuleInPython) {
+    throw std::invalid_argument(
+        fmt::format("{}: a run whose priorities are a rule in Python, which only Python can drive; "
+                    "must be a run with a rule that has a name",
+                    run_folder.string()));
+  }
   choices.subgraph = text_or_null(flags, "subgraph");
   choices.policy = text_or_null(flags, "policy");
   if (flags.is_value("map")) choices.map_file = kept_file(run_folder, flags, "map");

@@ -30,9 +30,13 @@ void keep_configuration(const std::filesystem::path& run_folder,
 /// keys and its own.
 [[nodiscard]] std::string flags_yaml(const scenario::ScenarioChoices& choices);
 
+/// What flags.yaml has as `priorities` where they were a function in Python.
+inline constexpr char kRuleInPython[] = "python";
+
 /// The choices of a run from its flags.yaml, with the copies in its own folder; a file that was not
 /// copied yet is that which was driven.
-/// @throws std::invalid_argument naming file, line, key, value and bound
+/// @throws std::invalid_argument naming file, line, key, value and bound, or the folder, if its
+/// priorities are kRuleInPython
 [[nodiscard]] scenario::ScenarioChoices kept_choices(const std::filesystem::path& run_folder);
 
 /// The choices that the result of a run depends on.

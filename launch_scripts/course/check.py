@@ -13,9 +13,11 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
+import textwrap
 import traceback
 from dataclasses import dataclass
 
@@ -68,7 +70,19 @@ class Figure:
         reached = f"  {self.name:37} reached {self.reached:7.4g} {self.unit:4} "
         note = "" if self.counts else ", as the car hardly drives"
         asked = f"{reached}asked {at} {self.asked:.4g} {self.unit}".ljust(88)
-        return f"{asked}{self.earned} of {self.points} points{note}"
+        return fitted(f"{asked}{self.earned} of {self.points} points{note}")
+
+
+def fitted(line):
+    """For a terminal, or for COLUMNS, it goes on in further lines where it is too long, without its columns."""
+    if not sys.stdout.isatty() and not os.environ.get("COLUMNS"):
+        return line
+    columns = max(40, shutil.get_terminal_size().columns)
+    if len(line) <= columns:
+        return line
+    indent = line[:len(line) - len(line.lstrip())]
+    return textwrap.fill(" ".join(line.split()), columns, initial_indent=indent, subsequent_indent=indent + "    ",
+                         break_long_words=False, break_on_hyphens=False)
 
 
 def short(value):
@@ -370,8 +384,8 @@ def main():
                           "failure": failure,
                           "figures": {one.name: [float(one.reached), float(one.asked)] for one in figures}}))
     else:
-        lines = [f"  no points, because of {failure}"] if failure else [one.line() for one in figures]
-        print(f"{given.exercise}: {answer}", *lines, sep="\n")
+        lines = [fitted(f"  no points, because of {failure}")] if failure else [one.line() for one in figures]
+        print(fitted(f"{given.exercise}: {answer}"), *lines, sep="\n")
         print(f"grade: {earned} of {MOST_POINTS} points, " + ("the goal is reached" if is_reached else "not yet"))
     return 0 if is_reached else 1
 

@@ -111,8 +111,9 @@ int run(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Builds the automaton of a configuration: designs all maneuvers, writes a file.",
-               "build_automaton"};
+  hlc::apps::Command app{
+      "Builds the automaton of a configuration: designs all maneuvers, writes a file.",
+      "build_automaton"};
   Choices choices;
   choices.jobs = std::max(1U, std::thread::hardware_concurrency());
   app.add_option("CONFIGURATION", choices.configuration, "automaton configuration (YAML)")

@@ -21,6 +21,8 @@
 #include "planner/apps/result_folder.hpp"
 #include "planner/coordination/priorities/strategies.hpp"
 #include "planner/rollout/priority_trial.hpp"
+#include "planner/scenario/priority_values.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "planner/scenario/starts.hpp"
 
 namespace {
@@ -294,7 +296,7 @@ int run(Flags flags, const std::string& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  hlc::apps::Command app{
       "Drives a scenario with every priority strategy, in one process with cars that follow "
       "perfectly.",
       "compare_priorities"};

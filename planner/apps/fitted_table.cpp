@@ -133,6 +133,9 @@ void append_block(const std::vector<Line>& block, std::size_t columns, std::stri
   for (const Line& line : block) append_broken(line, columns, text);
 }
 
+/// By a terminal, or by who asks for it.
+bool is_limited() { return isatty(STDOUT_FILENO) == 1 || std::getenv("COLUMNS") != nullptr; }
+
 }  // namespace
 
 std::string fitted_table(const std::string& text, std::size_t columns) {
@@ -153,8 +156,20 @@ std::string fitted_table(const std::string& text, std::size_t columns) {
 }
 
 std::string fitted_table(const std::string& text) {
-  const bool is_limited = isatty(STDOUT_FILENO) == 1 || std::getenv("COLUMNS") != nullptr;
-  return is_limited ? fitted_table(text, columns_of(STDOUT_FILENO)) : text;
+  return is_limited() ? fitted_table(text, columns_of(STDOUT_FILENO)) : text;
+}
+
+std::string fitted_lines(const std::string& text, std::size_t columns) {
+  std::string fitted;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    append_broken(characters_of(line), columns, fitted);
+  }
+  return fitted;
+}
+
+std::string fitted_lines(const std::string& text) {
+  return is_limited() ? fitted_lines(text, columns_of(STDOUT_FILENO)) : text;
 }
 
 }  // namespace hlc::apps

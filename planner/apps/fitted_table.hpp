@@ -16,4 +16,11 @@ namespace hlc::apps {
 /// pipes and files without that variable, where programs read it.
 [[nodiscard]] std::string fitted_table(const std::string& text);
 
+/// Lines of words instead of tables: each that is too long goes on in the next one, as above, even
+/// where it has blanks in common with others.
+[[nodiscard]] std::string fitted_lines(const std::string& text, std::size_t columns);
+
+/// The same for the terminal, as above.
+[[nodiscard]] std::string fitted_lines(const std::string& text);
+
 }  // namespace hlc::apps

@@ -53,8 +53,9 @@ void run(const std::string& name, const std::string& blocks, double scale,
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Writes a CommonRoad 2020a map: of the same shape as the lab's, or of a town.",
-               "generate_map"};
+  hlc::apps::Command app{
+      "Writes a CommonRoad 2020a map: of the same shape as the lab's, or of a town.",
+      "generate_map"};
   std::string name = kLabLike;
   std::string blocks;
   hlc::apps::OutputFile out{"--out", {}};

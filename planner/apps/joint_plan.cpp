@@ -5,6 +5,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "planner/apps/fitted_table.hpp"
 #include "planner/scenario/engine_choice.hpp"
 #include "planner/search/search_options.hpp"
 
@@ -32,6 +33,50 @@ Json to_json(const search::SearchResult& plan) {
 
 std::string cost_text(const JointPlan& plans) {
   return plans.empty() ? "no plan" : fmt::format("{:.9g} m^2", joint_search::cost_of(plans));
+}
+
+std::string result_text(const scenario::JointProblemFile& file, const TimedSolution& timed) {
+  const joint_search::JointSolution& solution = timed.solution;
+  const joint_search::JointSearchResult& joint = solution.joint;
+  const bool has_plan = !joint.plans.empty();
+  std::string text = fmt::format(
+      "vehicles         {}, engine {}, at most {} expansions in each of their searches\n"
+      "status           {}{}\n"
+      "alone            {}, without each other\n"
+      "in this order    {}, each around those before it\n"
+      "best order       {}\n",
+      file.problems.size(), scenario::engine_name(file.search), file.search.max_expansions,
+      search::to_string(joint.status),
+      has_plan ? "" : fmt::format(": {}", search::to_string(joint.reason)),
+      cost_text(solution.alone), cost_text(solution.constant_order),
+      cost_text(solution.best_order));
+  if (has_plan) {
+    text += fmt::format("jointly          {:.9g} m^2, {}\n", joint.cost,
+                        joint.status == SearchStatus::kOptimal
+                            ? "no joint plan costs less"
+                            : fmt::format("one that costs up to {:.9g} m^2 less may exist",
+                                          joint.cost - joint.lower_bound));
+  }
+  return text +
+         fmt::format("joint search     {} nodes, {} vertices expanded; {:.1f} us with all orders\n",
+                     joint.nodes, joint.expanded, timed.planning_us);
+}
+
+std::string plan_table(const TimedSolution& timed) {
+  const joint_search::JointSolution& solution = timed.solution;
+  std::string text = fmt::format("{:>7}  {:>12}  {:>14}  trims after each step\n", "vehicle",
+                                 "cost [m^2]", "alone [m^2]");
+  for (std::size_t i = 0; i < solution.joint.plans.size(); ++i) {
+    std::string trims;
+    for (const automaton::Maneuver* maneuver : solution.joint.plans[i].maneuvers) {
+      trims += fmt::format(" {}", maneuver->to.index + 1);
+    }
+    // Without the others a search may use up a budget that suffices with them.
+    text += fmt::format(
+        "{:>7}  {:>12.6f}  {:>14} {}\n", i + 1, solution.joint.plans[i].cost,
+        solution.alone.empty() ? "-" : fmt::format("{:.6f}", solution.alone[i].cost), trims);
+  }
+  return text;
 }
 
 }  // namespace
@@ -68,38 +113,8 @@ std::string json_of(const TimedSolution& timed) {
 }
 
 void print(const scenario::JointProblemFile& file, const TimedSolution& timed) {
-  const joint_search::JointSolution& solution = timed.solution;
-  const joint_search::JointSearchResult& joint = solution.joint;
-  fmt::print("vehicles         {}, engine {}, at most {} expansions in each of their searches\n",
-             file.problems.size(), scenario::engine_name(file.search), file.search.max_expansions);
-  const bool has_plan = !joint.plans.empty();
-  fmt::print("status           {}{}\n", search::to_string(joint.status),
-             has_plan ? "" : fmt::format(": {}", search::to_string(joint.reason)));
-  fmt::print("alone            {}, without each other\n", cost_text(solution.alone));
-  fmt::print("in this order    {}, each around those before it\n",
-             cost_text(solution.constant_order));
-  fmt::print("best order       {}\n", cost_text(solution.best_order));
-  if (has_plan) {
-    fmt::print("jointly          {:.9g} m^2, {}\n", joint.cost,
-               joint.status == SearchStatus::kOptimal
-                   ? "no joint plan costs less"
-                   : fmt::format("one that costs up to {:.9g} m^2 less may exist",
-                                 joint.cost - joint.lower_bound));
-  }
-  fmt::print("joint search     {} nodes, {} vertices expanded; {:.1f} us with all orders\n",
-             joint.nodes, joint.expanded, timed.planning_us);
-  if (!has_plan) return;
-  fmt::print("\n{:>7}  {:>12}  {:>14}  trims after each step\n", "vehicle", "cost [m^2]",
-             "alone [m^2]");
-  for (std::size_t i = 0; i < joint.plans.size(); ++i) {
-    std::string trims;
-    for (const automaton::Maneuver* maneuver : joint.plans[i].maneuvers) {
-      trims += fmt::format(" {}", maneuver->to.index + 1);
-    }
-    // Without the others a search may use up a budget that suffices with them.
-    fmt::print("{:>7}  {:>12.6f}  {:>14} {}\n", i + 1, joint.plans[i].cost,
-               solution.alone.empty() ? "-" : fmt::format("{:.6f}", solution.alone[i].cost), trims);
-  }
+  fmt::print("{}", fitted_lines(result_text(file, timed)));
+  if (!timed.solution.joint.plans.empty()) fmt::print("\n{}", fitted_table(plan_table(timed)));
 }
 
 }  // namespace hlc::apps

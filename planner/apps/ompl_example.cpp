@@ -19,8 +19,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -337,8 +339,8 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Compares this planner with OMPL's own kinodynamic planners on one problem.",
-               "ompl_example"};
+  hlc::apps::Command app{
+      "Compares this planner with OMPL's own kinodynamic planners on one problem.", "ompl_example"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv, {{"--seconds", "--time_s"}})) {

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
+#include "planner/apps/fitted_table.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/joint_plan.hpp"
 #include "planner/apps/output_files.hpp"
@@ -169,43 +170,56 @@ Json to_json(const Solved& solved) {
   return json;
 }
 
-std::string number(double value) { return fmt::format("{:.9g}", value); }
-
-void print(const hlc::scenario::ProblemFile& file, const Solved& solved) {
+std::string result_text(const hlc::scenario::ProblemFile& file, const Solved& solved) {
   const hlc::search::SearchResult& result = solved.result;
-  const hlc::search::HorizonProblem& problem = file.problem;
-  std::printf("engine           %s, cost-to-go %s, at most %zu expansions\n",
-              hlc::scenario::engine_name(file.search).c_str(),
-              hlc::search::to_string(file.search.cost_to_go), file.search.max_expansions);
   const bool has_plan = result.status != hlc::search::SearchStatus::kFallback;
-  std::printf("status           %s%s\n", hlc::search::to_string(result.status),
-              has_plan ? "" : (std::string(": ") + hlc::search::to_string(result.reason)).c_str());
+  std::string text = fmt::format(
+      "engine           {}, cost-to-go {}, at most {} expansions\n"
+      "status           {}{}\n",
+      hlc::scenario::engine_name(file.search), hlc::search::to_string(file.search.cost_to_go),
+      file.search.max_expansions, hlc::search::to_string(result.status),
+      has_plan ? "" : fmt::format(": {}", hlc::search::to_string(result.reason)));
   if (has_plan) {
     const bool is_optimal = result.status == hlc::search::SearchStatus::kOptimal;
-    const std::string bound = is_optimal ? "no plan costs less"
-                                         : "a plan that costs up to " +
-                                               number(result.cost - result.lower_bound) +
-                                               " m^2 less may exist";
-    std::printf("cost             %.9g m^2, %s\n", result.cost, bound.c_str());
+    text +=
+        fmt::format("cost             {:.9g} m^2, {}\n", result.cost,
+                    is_optimal ? "no plan costs less"
+                               : fmt::format("a plan that costs up to {:.9g} m^2 less may exist",
+                                             result.cost - result.lower_bound));
     if (result.status == hlc::search::SearchStatus::kUnproven) {
-      std::printf("                 the cost-to-go of 2022 may overestimate\n");
+      text += "                 the cost-to-go of 2022 may overestimate\n";
     }
   }
-  std::printf("vertices         %zu generated, %zu expanded\n", result.generated, result.expanded);
-  std::printf("planning time    %.1f us\n", solved.planning_us);
-  if (!has_plan) return;
-  std::printf("\n%4s  %4s  %-8s %9s %9s %9s  %9s %9s  %12s\n", "step", "trim", "maneuver", "x [m]",
-              "y [m]", "psi [rad]", "ref x [m]", "ref y [m]", "distance [m]");
-  std::printf("%4d  %4zu  %-8s %9.3f %9.3f %9.3f\n", 0, problem.start_trim.index + 1, "start",
-              problem.start.x_m, problem.start.y_m, problem.start.heading_rad);
+  return text + fmt::format(
+                    "vertices         {} generated, {} expanded\n"
+                    "planning time    {:.1f} us\n",
+                    result.generated, result.expanded, solved.planning_us);
+}
+
+std::string plan_table(const hlc::search::HorizonProblem& problem,
+                       const hlc::search::SearchResult& result) {
+  std::string text = fmt::format("{:>4}  {:>4}  {:<8} {:>9} {:>9} {:>9}  {:>9} {:>9}  {:>12}\n",
+                                 "step", "trim", "maneuver", "x [m]", "y [m]", "psi [rad]",
+                                 "ref_x [m]", "ref_y [m]", "distance [m]");
+  text += fmt::format("{:>4}  {:>4}  {:<8} {:>9.3f} {:>9.3f} {:>9.3f}\n", 0,
+                      problem.start_trim.index + 1, "start", problem.start.x_m, problem.start.y_m,
+                      problem.start.heading_rad);
   for (std::size_t j = 0; j < result.maneuvers.size(); ++j) {
     const hlc::Pose& pose = result.poses[j];
     const hlc::Point& reference_m = problem.reference_m[j];
-    std::printf("%4zu  %4zu  %-8s %9.3f %9.3f %9.3f  %9.3f %9.3f  %12.3f\n", j + 1,
-                result.maneuvers[j]->to.index + 1, result.maneuvers[j]->label.c_str(), pose.x_m,
-                pose.y_m, pose.heading_rad, reference_m.x(), reference_m.y(),
-                (pose.position_m() - reference_m).norm());
+    text += fmt::format(
+        "{:>4}  {:>4}  {:<8} {:>9.3f} {:>9.3f} {:>9.3f}  {:>9.3f} {:>9.3f}  {:>12.3f}\n", j + 1,
+        result.maneuvers[j]->to.index + 1, result.maneuvers[j]->label, pose.x_m, pose.y_m,
+        pose.heading_rad, reference_m.x(), reference_m.y(),
+        (pose.position_m() - reference_m).norm());
   }
+  return text;
+}
+
+void print(const hlc::scenario::ProblemFile& file, const Solved& solved) {
+  std::cout << hlc::apps::fitted_lines(result_text(file, solved));
+  if (solved.result.status == hlc::search::SearchStatus::kFallback) return;
+  std::cout << '\n' << hlc::apps::fitted_table(plan_table(file.problem, solved.result));
 }
 
 void write_tree(const hlc::scenario::ProblemFile& file, const std::filesystem::path& path) {
@@ -270,8 +284,9 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Solves one planning problem from a file, or a joint one of several vehicles.",
-               "plan_problem"};
+  hlc::apps::Command app{
+      "Solves one planning problem from a file, or a joint one of several vehicles.",
+      "plan_problem"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;

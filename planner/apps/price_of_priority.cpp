@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "planner/apps/fitted_table.hpp"
@@ -23,6 +25,7 @@
 #include "planner/joint_search/prioritized.hpp"
 #include "planner/rollout/joint_draws.hpp"
 #include "planner/scenario/joint_problem_file.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "planner/search/search_options.hpp"
 
 namespace {
@@ -312,7 +315,7 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  hlc::apps::Command app{
       "Measures what prioritised planning costs: draws planning problems of several cars in "
       "conflict, plans one after the other by several rules, and compares with the joint optimum.",
       "price_of_priority"};

@@ -11,12 +11,14 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "planner/apps/flags.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/engine_choice.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "planner/search/search_engine.hpp"
 #include "planner/search/search_options.hpp"
 
@@ -221,7 +223,7 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  hlc::apps::Command app{
       "Proposes max_expansions for a scenario: measures the expansions per second of its engine on "
       "this machine, with the scenario's problems and with one in which the whole tree is "
       "searched without a result, and takes the slowest.",

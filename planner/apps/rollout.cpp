@@ -16,6 +16,7 @@
 
 #include "planner/apps/fitted_table.hpp"
 #include "planner/apps/flags.hpp"
+#include "planner/apps/scenario_flags.hpp"
 #include "planner/coordination/joint_gap.hpp"
 #include "planner/road/lap.hpp"
 #include "planner/rollout/rollout.hpp"
@@ -192,7 +193,8 @@ int run(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Plans a scenario with vehicles that follow perfectly, in one process.", "rollout"};
+  hlc::apps::Command app{"Plans a scenario with vehicles that follow perfectly, in one process.",
+                         "rollout"};
   Choices choices;
   hlc::apps::declare_scenario_flags(app, choices.scenario);
   app.add_option("--steps", choices.scenario.steps, "instead of the scenario's")

@@ -9,6 +9,7 @@
 
 #include "planner/apps/flags.hpp"
 #include "planner/apps/output_files.hpp"
+#include "planner/apps/scenario_flags.hpp"
 #include "planner/plot/drawing.hpp"
 #include "planner/plot/scenario_data.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -113,7 +114,7 @@ void print(const hlc::scenario::Scenario& scenario, const Parts& parts) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Checks a scenario file and describes a run of it.", "show_scenario"};
+  hlc::apps::Command app{"Checks a scenario file and describes a run of it.", "show_scenario"};
   hlc::scenario::ScenarioChoices choices;
   Parts parts;
   hlc::apps::OutputFile plot{"--plot", {}};

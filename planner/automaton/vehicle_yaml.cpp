@@ -16,7 +16,6 @@ using Field = std::pair<const char*, double>;
 
 // Values beyond these are no wheeled vehicle's, but given in another unit.
 constexpr double kLongest_m = 100.0;
-constexpr double kFastest_mps = 1000.0;
 constexpr double kStrongest = 1e4;  // m/s^2, rad/s, 1/m
 
 std::string fields(std::initializer_list<Field> list) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/apps/flags.hpp"
+#include "planner/apps/scenario_flags.hpp"
 #include "planner/geometry/median.hpp"
 #include "planner/rollout/rollout.hpp"
 #include "planner/scenario/scenario.hpp"
@@ -82,7 +83,7 @@ void run(const hlc::scenario::ScenarioChoices& choices, std::size_t repeats) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Times whole runs of a scenario within this process.", "run_benchmark"};
+  hlc::apps::Command app{"Times whole runs of a scenario within this process.", "run_benchmark"};
   hlc::scenario::ScenarioChoices choices;
   std::size_t repeats = 20;
   hlc::apps::declare_scenario_flags(app, choices);

@@ -82,8 +82,9 @@ void run(const hlc::scenario::ScenarioChoices& choices, const std::vector<std::s
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Times a step of all cars within this process, for several numbers of cars.",
-               "step_benchmark"};
+  hlc::apps::Command app{
+      "Times a step of all cars within this process, for several numbers of cars.",
+      "step_benchmark"};
   hlc::scenario::ScenarioChoices choices;
   std::vector<std::size_t> numbers{1, 2, 5, 10, 15, 20, 25, 30, 40, 50};
   Sample sample;

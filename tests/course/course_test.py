@@ -117,6 +117,14 @@ class CourseTest(unittest.TestCase):
         self.assertRegex(done.stdout, r"(?m)^  trims +reached +12 +asked at most 6 +0 of 6 points$")
         self.assertRegex(done.stdout, r"(?m)^grade: \d of 10 points, not yet$")
 
+    def test_no_line_is_wider_than_a_narrow_terminal(self):
+        narrow = dict(os.environ, COLUMNS="60")
+        done = subprocess.run([sys.executable, COURSE / "check.py", "automaton"], capture_output=True, text=True,
+                              check=False, env=narrow)
+        for line in done.stdout.splitlines():
+            self.assertTrue(len(line) <= 60 or "/" in line, line)
+        self.assertRegex(" ".join(done.stdout.split()), r" trims reached 12 asked at most 6 0 of 6 points ")
+
     def test_a_recorded_drive_is_graded_as_a_simulated_one(self):
         evaluate = Path(os.environ["HLC_BUILD"]) / "bin" / "evaluate"
         done = ended(evaluate, "--scenario", "lab_red_alone", "--steps", 300, "--keep_runs", "--out",

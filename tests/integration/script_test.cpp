@@ -513,7 +513,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadInput{"TooManyCars", {"--scenario", "circle", "--cars", "99"}, "99"},
                     BadInput{"MoreCarsThanTheLabHas",
                              {"--scenario", "lab_cars", "--cars", "31"},
-                             "vehicle 31, must be in 1 ... 30 in the lab"},
+                             "--cars = 31, must be in 1 ... 30"},
                     BadInput{"SeedWhereNothingIsDrawn", {"--seed", "3"}, "--seed"},
                     BadInput{"SeedNotANumber", {"--seed", "x"}, "seed = x"},
                     BadInput{"RoutesUnknown", {"--routes", "some"}, "some"},

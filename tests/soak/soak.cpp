@@ -113,8 +113,8 @@ CLI::App* add(CLI::App& app, const char* name, const char* what, Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Drives three cars again and again and looks for what only shows now and then.",
-               "soak"};
+  hlc::apps::Command app{
+      "Drives three cars again and again and looks for what only shows now and then.", "soak"};
   Flags flags;
   CLI::App* faults =
       add(app, "faults", "random faults; a run's faults follow from its seed", flags);

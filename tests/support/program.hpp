@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdio>
+#include <sstream>
 #include <string>
 
 #include "tests/support/folders.hpp"
@@ -35,6 +36,17 @@ inline Outcome run_command(const std::string& command) {
 /// @param before   commands of the shell before it: "ulimit -f 32; "
 inline Outcome run_program(const std::string& command, const std::string& before = "") {
   return run_command(before + test::build_folder() + "/bin/" + command);
+}
+
+/// Lines that are longer and could be broken: behind their indent they have a blank.
+inline std::string lines_beyond(std::size_t columns, const std::string& text) {
+  std::istringstream lines(text);
+  std::string found;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (line.size() > columns && line.find(' ', first) != std::string::npos) found += line + '\n';
+  }
+  return found;
 }
 
 }  // namespace hlc::test

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "hlc_bridge/record/program.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/interruption.hpp"
+#include "planner/apps/scenario_name.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/apps/drive_campaign.hpp"
 #include "vehicle_sim/apps/drive_sweep.hpp"
 #include "vehicle_sim/apps/evaluation_files.hpp"
@@ -270,7 +273,7 @@ CLI::Option* declare(CLI::App& app, Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  hlc::apps::Command app{
       "Simulates many runs and writes their rows; with --report, compares them with the paper's "
       "Table 2.",
       "evaluate"};

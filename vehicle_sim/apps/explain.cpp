@@ -19,11 +19,13 @@
 #include "hlc_bridge/messages/exit_codes.hpp"
 #include "hlc_bridge/record/explanation_file.hpp"
 #include "hlc_bridge/record/run_folder.hpp"
+#include "planner/apps/fitted_table.hpp"
 #include "planner/apps/flags.hpp"
 #include "planner/apps/interruption.hpp"
 #include "planner/common/text_file.hpp"
 #include "planner/plot/search_page.hpp"
 #include "planner/scenario/problem_dump.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "planner/search/recorded_search.hpp"
 #include "vehicle_sim/apps/explain_all.hpp"
 #include "vehicle_sim/apps/explanation.hpp"
@@ -214,7 +216,7 @@ int explain_step(hlc::record::RunFolder run, const Choices& choices) {
     explained.without_all = drives.without(may_matter);
     for (const VehicleId one : may_matter) explained.without_one.push_back(drives.without({one}));
   }
-  std::cout << hlc::apps::explanation(explained);
+  std::cout << hlc::apps::fitted_lines(hlc::apps::explanation(explained));
   return choices.tree ? keep_search_page(std::move(run), choices, driven.search_page)
                       : hlc::kExitGood;
 }
@@ -239,7 +241,7 @@ int explain(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  hlc::apps::Command app{
       "Why a vehicle did what it did in a step of a run of logical time: what it knew, what it "
       "would have done alone, without each of the others, and without each limit of its plan: the "
       "lane boundary, the end of its right of way, a zone, a request. Each answer without others "

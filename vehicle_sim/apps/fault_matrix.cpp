@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -172,7 +173,7 @@ int drive(Choices choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  hlc::apps::Command app(
       "Runs of three cars in memory, each with one fault of one process: every role, fault, phase "
       "and kind of run.",
       "fault_matrix");

@@ -27,6 +27,8 @@
 #include "hlc_bridge/result/trace_hash.hpp"
 #include "planner/apps/fitted_table.hpp"
 #include "planner/apps/flags.hpp"
+#include "planner/common/program_version.hpp"
+#include "planner/scenario/scenario.hpp"
 #include "vehicle_sim/apps/clocks.hpp"
 #include "vehicle_sim/apps/fork_folder.hpp"
 #include "vehicle_sim/apps/recorded_messages.hpp"
@@ -214,7 +216,7 @@ int replay(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  hlc::apps::Command app{
       "Drives a run again in one process. In logical time the same run must give the same "
       "trace_sha256; with --from_step and --set it is a \"what if\" with a run folder of its own. "
       "In "

@@ -2,7 +2,9 @@
 // launch_scripts/vehicle.sh, with the flags of the lab's vehicle and ours.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -192,8 +194,8 @@ hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  CLI::App app{"Simulated µCars: follow commands and publish their states, every 20 ms.",
-               "vehicle_sim"};
+  hlc::apps::Command app{"Simulated µCars: follow commands and publish their states, every 20 ms.",
+                         "vehicle_sim"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) return *code;

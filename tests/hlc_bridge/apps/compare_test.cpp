@@ -67,6 +67,15 @@ TEST_F(Compare, EqualRunsEndWithCodeZero) {
   EXPECT_THAT(outcome.output, Not(HasSubstr("started differently")));
 }
 
+TEST_F(Compare, NoLineIsWiderThanANarrowTerminal) {
+  const std::string command = "compare " + b_.string() + " " + d_.string();
+  EXPECT_NE(lines_beyond(60, run_program(command).output), "") << "it would need no cut";
+  const Outcome narrow = run_program(command, "COLUMNS=60 ");
+  EXPECT_EQ(narrow.exit_code, 1) << narrow.output;
+  EXPECT_EQ(lines_beyond(60, narrow.output), "");
+  EXPECT_THAT(narrow.output, HasSubstr("\nvehicle tracking [mm]"));
+}
+
 TEST_F(Compare, RunsOfTwoSubgraphsDifferInThePlan) {
   const Outcome outcome = compare(b_, d_);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;

@@ -24,7 +24,7 @@ struct LabProgram {
     complaint = testing::internal::GetCapturedStderr();
     return code;
   }
-  CLI::App app{"", "program"};
+  Command app{"", "program"};
   NetworkFlags network;
   std::vector<int> ids;
   std::string complaint;

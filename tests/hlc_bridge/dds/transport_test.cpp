@@ -88,6 +88,10 @@ TEST(DiscoveryFlags, IncompleteOrMalformedOnesAreRefusedByName) {
   EXPECT_EQ(flag("", kId, "127.0.0.1", "11811"), "--discovery_mode");
   EXPECT_EQ(flag("client", "", "127.0.0.1", "11811"), "--discovery_server_id");
   EXPECT_EQ(flag("client", "44.53", "127.0.0.1", "11811"), "--discovery_server_id");
+  for (const std::string& id : {std::string(kId) + ".41", std::string(kId) + "4",
+                                "x" + std::string(kId).substr(1), std::string(35, '4')}) {
+    EXPECT_EQ(flag("client", id.c_str(), "127.0.0.1", "11811"), "--discovery_server_id") << id;
+  }
   EXPECT_EQ(flag("client", kId, "", "11811"), "--discovery_server_ip");
   EXPECT_EQ(flag("client", kId, "lab-pc", "11811"), "--discovery_server_ip");
   EXPECT_EQ(flag("client", kId, "127.0.0.1", ""), "--discovery_server_port");

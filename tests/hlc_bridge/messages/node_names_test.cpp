@@ -19,7 +19,8 @@ TEST(NodeNames, ASharedNameStandsForTheProcessOfEachVehicle) {
 TEST(NodeNames, OtherNamesStandForThemselves) {
   const std::vector<std::uint8_t> one{7};
   EXPECT_EQ(middleware_name(one), middleware_name(7));
-  for (const std::string name : {"middleware_7", "lab_control", "1,2", "a_1,", "a_1,b", ""}) {
+  for (const std::string name :
+       {"middleware_7", "lab_control", "1,2", "a_1,", "a_1,b", "_", "1,2_", ""}) {
     EXPECT_THAT(process_names(name), ElementsAre(name));
   }
 }
@@ -30,7 +31,10 @@ TEST(NodeNames, AReadyMiddlewareOfSeveralVehiclesIsReadyForEach) {
   EXPECT_THAT(single_ready_ids(middleware_ready_id(ids)),
               ElementsAre(middleware_ready_id(1), middleware_ready_id(12)));
   EXPECT_THAT(single_ready_ids(middleware_ready_id(3)), ElementsAre(middleware_ready_id(3)));
-  EXPECT_THAT(single_ready_ids("hlc_1"), ElementsAre("hlc_1"));
+  for (const std::string name : {"hlc_1", "MW for muCars 1,2 ready.", "MW for muCars  ready.",
+                                 "MW for muCars ready.", "MW for muCars 1, 2 ready", ""}) {
+    EXPECT_THAT(single_ready_ids(name), ElementsAre(name));
+  }
 }
 
 }  // namespace

@@ -49,6 +49,19 @@ TEST(Configuration, AnEmptyPathInTheFlagsOfARunIsRefusedByItsKey) {
   }
 }
 
+TEST(Configuration, ARuleInPythonIsNamedAsWhatItIs) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "configuration");
+  test::put(folder / "configuration" / "flags.yaml",
+            flags_yaml({.file = "/s.yaml", .priorities = kRuleInPython}));
+  EXPECT_THAT(
+      [&] { static_cast<void>(kept_choices(folder.path())); },
+      ThrowsMessage<std::invalid_argument>(
+          folder.path().string() +
+          ": a run whose priorities are a rule in Python, which only Python can drive; must "
+          "be a run with a rule that has a name"));
+}
+
 TEST(Configuration, ChoicesOfARunLeadToTheCopiesInItsFolder) {
   const test::TemporaryFolder folder;
   const std::filesystem::path configuration = folder / "configuration";

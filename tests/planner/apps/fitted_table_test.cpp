@@ -37,6 +37,13 @@ TEST(FittedTable, ALineOfWordsGoesOnInTheNext) {
             "one\n    " + std::string(30, 'x') + "\n    two\n");
 }
 
+TEST(FittedLines, GoOnInTheNextEvenIfTheirBlanksMeet) {
+  const std::string lines = "alone     the same\nwithout 2 a turn\n";
+  EXPECT_EQ(fitted_lines(lines, 18), lines);
+  EXPECT_EQ(fitted_lines(lines, 14), "alone     the\n    same\nwithout 2 a\n    turn\n");
+  EXPECT_EQ(fitted_lines("a\n\nb", 14), "a\n\nb\n");
+}
+
 TEST(FittedTable, LosesNothingAndIsNoWiderWhateverTheWidth) {
   std::mt19937 random(1);
   for (std::size_t columns = 20; columns < 60; ++columns) {

@@ -65,6 +65,14 @@ nlohmann::json json_of(const std::string& flags) {
   return json;
 }
 
+TEST_F(ProblemPrograms, NoLineOfAPlanIsWiderThanANarrowTerminal) {
+  EXPECT_NE(test::lines_beyond(60, run_program("plan_problem " + kShipped).output), "");
+  const Outcome narrow = run_program("plan_problem " + kShipped, "COLUMNS=60 ");
+  EXPECT_EQ(narrow.exit_code, 0) << narrow.output;
+  EXPECT_EQ(test::lines_beyond(60, narrow.output), "");
+  EXPECT_THAT(narrow.output, HasSubstr("\nstep distance [m]\n"));
+}
+
 TEST_F(ProblemPrograms, TheJsonHoldsThePlan) {
   const auto json = json_of(kShipped);
   EXPECT_EQ(json["status"], "optimal");

@@ -151,6 +151,17 @@ TEST(ReferenceSpeeds, ThatNoCarDrivesAreRefused) {
                 "highest reference speed of a vehicle: a section makes none faster"));
 }
 
+TEST(ReferenceSpeeds, OfAScenarioAreAtMostThoseOfAnyVehicle) {
+  const auto error_with = [](const std::string& speed) {
+    return test::error_of_scenario("speeds", "",
+                                   {{"reference_speed_mps: 0.8", "reference_speed_mps: " + speed}});
+  };
+  for (const char* speed : {"1e300", "1001"}) {
+    EXPECT_THAT(error_with(speed), HasSubstr("reference_speed_mps = " + std::string(speed)));
+    EXPECT_THAT(error_with(speed), HasSubstr("<= 1000"));
+  }
+}
+
 TEST(ReferenceSpeeds, AtWhichACarCouldNotStartAndStopAreRefused) {
   // Of this subgraph only the fast trim is next to standstill.
   const test::TemporaryFolder folder;

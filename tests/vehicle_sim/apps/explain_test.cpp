@@ -68,6 +68,14 @@ TEST_F(Explain, EveryStepInWhichAVehicleWaitsNamesForWhichAndWhatItWouldDoWithou
   EXPECT_GT(num_waiting, 0U);
 }
 
+TEST_F(Explain, NoLineIsWiderThanANarrowTerminal) {
+  const std::string command = "explain --run " + run().string() + " --vehicle_id 1 --step 10";
+  EXPECT_NE(test::lines_beyond(60, test::run_program(command).output), "");
+  const test::Outcome narrow = test::run_program(command, "COLUMNS=60 ");
+  EXPECT_EQ(narrow.exit_code, 0) << narrow.output;
+  EXPECT_EQ(test::lines_beyond(60, narrow.output), "");
+}
+
 TEST_F(Explain, TheProblemsOfTheStepCanBeSolvedAgainAndHaveTheSameRunnerUp) {
   const fs::path problems = folder().path() / "problems";
   const test::Outcome outcome =
