@@ -30,9 +30,4 @@ search::HorizonProblem with_reference_of(search::HorizonProblem problem,
   return problem;
 }
 
-search::HorizonProblem kept_in_lane(search::HorizonProblem problem) {
-  for (Point& direction : problem.contouring) direction *= std::sqrt(kHeldUpContouring);
-  return problem;
-}
-
 }  // namespace hlc::controller

@@ -32,12 +32,4 @@ inline constexpr double kHeldUp_m = 0.1;
 [[nodiscard]] search::HorizonProblem with_reference_of(search::HorizonProblem problem,
                                                        const search::HorizonProblem& other);
 
-/// By how much more an error across the path counts for a vehicle that is held up: others have to
-/// pass it where it stands, so it keeps to the middle of its lane, also where a free vehicle may
-/// cut a bend.
-inline constexpr double kHeldUpContouring = 5.0;
-
-/// The problem with kHeldUpContouring times the weight of errors across the path.
-[[nodiscard]] search::HorizonProblem kept_in_lane(search::HorizonProblem problem);
-
 }  // namespace hlc::controller

@@ -243,13 +243,9 @@ TEST(RandomRoutes, ACarDrivesRoundItsWholeRouteWithoutAStop) {
   const ScenarioVehicle& car = scenario.vehicles.front();
   rollout::Rollout rollout = rollout::make_rollout(scenario);
   std::vector<Point> positions_m;
-  int num_askew = 0;  // whose new plan would have ended askew in a bend: the plan in force leads on
   for (int step = 0; step < 1800; ++step) {
     const std::vector<coordination::Report> reports = rollout.step();
-    if (reports.front().status == coordination::StepStatus::kFallback) {
-      ASSERT_EQ(reports.front().reason, coordination::FallbackReason::kInfeasible) << step;
-      ++num_askew;
-    }
+    ASSERT_NE(reports.front().status, coordination::StepStatus::kFallback) << step;
     positions_m.push_back(reports.front().planned_pose.position_m());
     if (step > 20) {
       ASSERT_GT((positions_m.back() - positions_m[positions_m.size() - 11]).norm(), 0.1) << step;
@@ -258,7 +254,6 @@ TEST(RandomRoutes, ACarDrivesRoundItsWholeRouteWithoutAStop) {
   const road::Progress progress = road::progress_along(car.path, positions_m);
   EXPECT_GT(progress.s_m.back() - progress.s_m.front(), car.path.length_m());
   EXPECT_LT(*std::ranges::max_element(progress.distance_m), 0.2);
-  EXPECT_LT(num_askew, 10);
 }
 
 /// One car in a lanelet of the lab's network.

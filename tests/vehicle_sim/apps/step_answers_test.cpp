@@ -64,11 +64,7 @@ TEST(StepAnswers, WithoutALimitNoPlanCostsMoreAndOneThatStandsAtTheEndOfItsRoadG
     const StepAnswers answers =
         answers_of(seen.controller, seen.chosen, seen.report, scenario.policy);
     for (const ExplainedStep::Limit& limit : answers.limits) {
-      if (!limit.ahead_m) {  // it would end askew in its lane, as far as it would lead then
-        EXPECT_EQ(limit.name, "the end of its right of way");
-        continue;
-      }
-      ASSERT_TRUE(limit.extra_m2) << limit.name;
+      ASSERT_TRUE(limit.ahead_m && limit.extra_m2) << limit.name;
       EXPECT_LE(*limit.extra_m2, 1e-9) << limit.name;
       if (*limit.extra_m2 < -1e-6) that_cost.insert(limit.name);
     }
