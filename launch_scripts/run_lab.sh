@@ -130,11 +130,13 @@ for name in cars seed steps noise_seed dds_domain startup_timeout_s; do whole_nu
 in_range() { # flag, value, from, to
   [[ -z $2 ]] || ((10#$2 >= $3 && 10#$2 <= $4)) || fail "--$1 = $2, must be in $3 ... $4"
 }
-in_range cars "$cars" 1 30
+[[ -z $cars ]] || ((10#$cars >= 1 && 10#$cars <= 30)) ||
+  fail "--cars = $cars, must be in 1 ... 30 in the lab; rollout and evaluate take more"
 in_range steps "$steps" 1 10000
 in_range startup_timeout_s "$startup_timeout_s" 1 3000
 in_range noise_seed "$noise_seed" 0 999999000 # every car adds its id
-[[ -z $noise_seed ]] || noise_seed=$((10#$noise_seed)) # 010 is ten
+startup_timeout_s=$((10#$startup_timeout_s)) # 010 is ten
+[[ -z $noise_seed ]] || noise_seed=$((10#$noise_seed))
 [[ -z $seed ]] || seed=$((10#$seed))
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 [[ -z $stamps || $stamps == exact || $stamps == lab ]] || fail "--stamps = $stamps, must be one of exact, lab"
@@ -160,10 +162,13 @@ if [[ -z $scenario ]]; then
   scenario=paper_three_cars
   [[ -z $commonroad ]] || scenario=passenger_cars_in_town
 fi
-[[ ! -e $scenario || $scenario == /* ]] || scenario=$PWD/$scenario
-[[ -e $scenario ]] || scenario=$here/scenarios/${scenario%.yaml}.yaml
-[[ -e $scenario ]] || fail "--scenario: no file $scenario; shipped: $(cd "$here/scenarios" && echo *.yaml)"
+is_file() { [[ -e $1 && ! -d $1 ]]; }
+shipped=$here/scenarios/${scenario%.yaml}.yaml
+if ! is_file "$scenario" && is_file "$shipped"; then scenario=$shipped; fi # a folder hides none of ours
 [[ ! -d $scenario ]] || fail "--scenario = $scenario is a folder, must be a scenario file"
+[[ -e $scenario ]] || fail "--scenario: no file $shipped; shipped: $(cd "$here/scenarios" && echo *.yaml)"
+[[ -r $scenario ]] || fail "--scenario = $scenario: cannot be read, must be a scenario file"
+[[ $scenario == /* ]] || scenario=$PWD/$scenario
 [[ -n $bin ]] || bin=$programs
 [[ -z $bin ]] || build=false
 
@@ -175,22 +180,22 @@ check_new_or_empty() { # flag, folder
 [[ -z $out ]] || check_new_or_empty out "$out"
 [[ -z $dump_problems ]] || check_new_or_empty dump_problems "$dump_problems"
 
-# The checks of show_scenario as far as they are possible without it: whoever has to build first waits for
-# minutes. Where these find nothing, show_scenario still may.
-mentions() { ! $build || grep -qsw -e "$1" "$scenario"; }
-check_priorities() { # by the sources that are built
-  local names
-  names=$(sed -n 's/.*\.name = "\([^"]*\)".*/\1/p' "$root"/planner/coordination/priorities/*.cpp)
-  grep -qxF -e "$priorities" <<<"$names" || fail "--priorities = $priorities, must be one of ${names//$'\n'/, }"
+# Whoever has to build first waits for minutes, so what can be seen without show_scenario is refused before: only what
+# show_scenario would certainly refuse, too. It looks at the rest.
+check_before_build() {
+  mentions() { grep -qw -e "$1" "$scenario"; }
+  [[ $profile == default || $profile == 2022 ]] || fail "--profile = $profile, must be one of default, 2022"
+  [[ -z $routes || $routes == random ]] || fail "--routes = $routes, must be random"
+  [[ -z $map || (-r $map && ! -d $map) ]] || fail "--map = $map: cannot be read, must be a CommonRoad file"
+  [[ -z $cars ]] || mentions circle || mentions draw ||
+    fail "--cars: $scenario has named vehicles; must be a scenario with \`circle\` or \`draw\`"
+  [[ -z $seed || -n $routes ]] || mentions draw || mentions random ||
+    fail "--seed: $scenario has nothing to draw; must be a scenario with \`draw\` or random routes"
+  local rules=$root/planner/coordination/priorities # also one that somebody adds
+  [[ -z $priorities ]] || grep -rqF -e "\"$priorities\"" "$rules" ||
+    fail "--priorities = $priorities, must be one of$(sed -n 's/.*\.name = "\([^"]*\)".*/ \1/p' "$rules"/*.cpp | paste -sd,)"
 }
-[[ -z $map || (-r $map && ! -d $map) ]] || fail "--map = $map: cannot be read, must be a CommonRoad file"
-[[ -z $map ]] || mentions map || ! mentions circle ||
-  fail "--map: $scenario is a scenario without lanes; must be a scenario with \`map\`"
-[[ -z $cars ]] || mentions circle || mentions draw ||
-  fail "--cars: $scenario has named vehicles; must be a scenario with \`circle\` or \`draw\`"
-[[ -z $seed || -n $routes ]] || mentions draw || mentions random ||
-  fail "--seed: $scenario has nothing to draw; must be a scenario with \`draw\` or random routes"
-[[ -z $priorities ]] || ! $build || check_priorities
+! $build || check_before_build
 
 build_programs() { ! $build || "$here/build.sh" --preset "$preset" "$1" || exit 1; }
 if $build; then
@@ -287,6 +292,7 @@ fi
 made=()
 make_folder() { # flag, folder
   local probe
+  check_new_or_empty "$1" "$2" # since the build another run may have taken it
   [[ -d $2 ]] || made=("$2" "${made[@]}")
   if ! mkdir -p -- "$2" 2>/dev/null; then
     rmdir -- "${made[@]}" 2>/dev/null

@@ -90,7 +90,7 @@ take_flags() {
       id) renamed vehicle_ids ;;
       dump-problems) renamed dump_problems ;;
     esac
-    [[ $name =~ ^(out|only|bin)$ || " ${kept_flags[*]} " == *" $name "* ]] || fail "unknown flag --$name (see --help)"
+    [[ $name =~ ^(out|only|bin)$ || ($name != *" "* && " ${kept_flags[*]} " == *" $name "*) ]] || fail "unknown flag --$name (see --help)"
     if [[ $1 != *=* ]]; then
       (($# >= 2)) || fail "--$name needs a value"
       shift
@@ -137,6 +137,7 @@ whole_number() { [[ -z $2 || $2 =~ ^[0-9]{1,9}$ ]] || fail "--$1 = $2, must be a
 for name in cars seed dds_domain middleware_domain controller_domain startup_timeout_s; do
   whole_number "$name" "${!name}"
 done
+startup_timeout_s=$((10#$startup_timeout_s)) # 010 is ten
 for one in ${noise_seed//,/ }; do whole_number noise_seed "$one"; done
 [[ -z $gains_scale || $gains_scale =~ ^[0-9]+(\.[0-9]+)?$ ]] || fail "--gains_scale = $gains_scale, must be a number >= 0"
 [[ -z $stamps || $stamps == exact || $stamps == lab ]] || fail "--stamps = $stamps, must be one of exact, lab"
@@ -145,9 +146,12 @@ for one in ${noise_seed//,/ }; do whole_number noise_seed "$one"; done
 [[ $log_level =~ ^(trace|debug|info|warning|error|critical|off)$ ]] ||
   fail "--log_level = $log_level, must be one of trace, debug, info, warning, error, critical, off"
 [[ -n $scenario ]] || fail "--scenario is missing"
-[[ ! -e $scenario || $scenario == /* ]] || scenario=$PWD/$scenario
-[[ -e $scenario ]] || scenario=$here/scenarios/${scenario%.yaml}.yaml
-[[ -e $scenario ]] || fail "--scenario: no file $scenario"
+is_file() { [[ -e $1 && ! -d $1 ]]; }
+shipped=$here/scenarios/${scenario%.yaml}.yaml
+if ! is_file "$scenario" && is_file "$shipped"; then scenario=$shipped; fi # a folder hides none of ours
+[[ ! -d $scenario ]] || fail "--scenario = $scenario is a folder, must be a scenario file"
+[[ -e $scenario ]] || fail "--scenario: no file $shipped"
+[[ $scenario == /* ]] || scenario=$PWD/$scenario
 [[ -n $middleware_domain ]] || middleware_domain=$((dds_domain + ids[0]))
 [[ -n $out ]] || out=$runs/vehicle_$(name_of "$vehicle_ids")
 if [[ -z $only && -e $out/run.json ]] && ! grep -q "did not end the run" "$out/run.json"; then

@@ -354,7 +354,7 @@ class Asker {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Asks controllers to plan on another part of their automaton, while they drive.",
       "automaton_request"};
   Flags flags;

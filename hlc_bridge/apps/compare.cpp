@@ -68,7 +68,7 @@ int compare_runs(const std::filesystem::path& folder_a, const std::filesystem::p
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Compares two runs: how their starts differ, the first step and vehicle in which they differ "
       "and in what (reports, input, messages, plan), the main numbers side by side.",
       "compare"};

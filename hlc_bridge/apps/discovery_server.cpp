@@ -105,8 +105,8 @@ std::shared_ptr<Server> make_server(const Flags& flags) {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  hlc::apps::Command app{"Introduces the participants of the lab domain to each other.",
-                         "discovery_server"};
+  hlc::apps::CommandLine app{"Introduces the participants of the lab domain to each other.",
+                             "discovery_server"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;

@@ -270,7 +270,7 @@ int draw(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Draws a run as its page shows it: a moment as a picture (--at_s, --out), or some time as a "
       "video (--video). Needs chromium, and ffmpeg for a video.",
       "draw_run"};

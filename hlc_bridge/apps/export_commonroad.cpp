@@ -99,7 +99,7 @@ std::string export_run(const std::filesystem::path& run,
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Writes a run as a CommonRoad 2020a file: the map, a planning problem per vehicle, planned "
       "and driven motion every 10 ms.",
       "export_commonroad"};

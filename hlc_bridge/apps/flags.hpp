@@ -113,7 +113,7 @@ inline const std::vector<FormerName> kFormerLabNames{{"--messages", "--messages_
 /// flags with a warning, as the lab's own programs do: the lab appends the operator's script
 /// parameters to the middleware's command line.
 /// @param network  of the parsed flags
-inline std::optional<int> parse_lab_flags(CLI::App& app, const NetworkFlags& network, int argc,
+inline std::optional<int> parse_lab_flags(CommandLine& app, const NetworkFlags& network, int argc,
                                           char** argv) {
   app.allow_extras();
   if (const auto code = parse_flags(app, argc, argv, kFormerLabNames)) return code;

@@ -167,7 +167,7 @@ std::shared_ptr<hlc::process::HlcProcess> make_process(const Flags& flags,
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "High-level controller: plans one vehicle's motion and agrees with the others.",
       "high_level_controller"};
   Flags flags;

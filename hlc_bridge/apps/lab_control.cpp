@@ -127,8 +127,8 @@ hlc::process::LabControlOptions process_options(const Flags& flags) {
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
   spdlog::set_default_logger(spdlog::stderr_color_mt(hlc::kLabControlName));
-  hlc::apps::Command app{"Lab control: starts, clocks, monitors, stops and records a run.",
-                         hlc::kLabControlName};
+  hlc::apps::CommandLine app{"Lab control: starts, clocks, monitors, stops and records a run.",
+                             hlc::kLabControlName};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) {

@@ -88,8 +88,8 @@ bool print(const std::vector<hlc::doctor::Finding>& findings) {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  hlc::apps::Command app{"Checks a lab before or during a run: participants, leftovers, remedies.",
-                         "lab_doctor"};
+  hlc::apps::CommandLine app{
+      "Checks a lab before or during a run: participants, leftovers, remedies.", "lab_doctor"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;

@@ -97,8 +97,8 @@ hlc::process::MiddlewareOptions process_options(const Flags& flags) {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  hlc::apps::Command app{"Middleware: vehicle states to a controller, its commands to the vehicle.",
-                         "middleware"};
+  hlc::apps::CommandLine app{
+      "Middleware: vehicle states to a controller, its commands to the vehicle.", "middleware"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) {

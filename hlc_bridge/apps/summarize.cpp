@@ -132,7 +132,7 @@ int summarize_run(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Result of a run: table, summary.json, steps.csv, timing.csv, run.html, run.mcap.",
       "summarize"};
   Choices choices;

@@ -205,7 +205,8 @@ class View {
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
   spdlog::set_default_logger(spdlog::stderr_color_mt("view"));
-  hlc::apps::Command app{"Shows a run under way in browsers: prints the page's address.", "view"};
+  hlc::apps::CommandLine app{"Shows a run under way in browsers: prints the page's address.",
+                             "view"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;

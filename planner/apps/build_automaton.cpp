@@ -111,7 +111,7 @@ int run(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Builds the automaton of a configuration: designs all maneuvers, writes a file.",
       "build_automaton"};
   Choices choices;

@@ -188,7 +188,7 @@ void print_notes(const Notes& notes, const std::string& drive, std::size_t sampl
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Chooses trims from a recorded drive (k-means in the plane of speed and steering) and prints "
       "them as the `trims` of an automaton's configuration.",
       "choose_trims"};

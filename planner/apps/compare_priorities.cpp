@@ -296,7 +296,7 @@ int run(Flags flags, const std::string& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Drives a scenario with every priority strategy, in one process with cars that follow "
       "perfectly.",
       "compare_priorities"};

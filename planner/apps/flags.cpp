@@ -43,9 +43,9 @@ void check_types(CLI::App& app) {
 
 }  // namespace
 
-Command::Command(std::string description, std::string name)
+CommandLine::CommandLine(std::string description, std::string name)
     : CLI::App(std::move(description), std::move(name)) {}
-Command::~Command() = default;
+CommandLine::~CommandLine() = default;
 
 void complain(const std::string& program, const std::string& message) {
   std::cerr << program << ": " << escaped(message) << '\n';
@@ -117,7 +117,7 @@ int refuse_unknown(const CLI::App& app, const CLI::ExtrasError& error) {
   return 2;
 }
 
-std::optional<int> parse_flags(CLI::App& app, int argc, char** argv,
+std::optional<int> parse_flags(CommandLine& app, int argc, char** argv,
                                const std::vector<FormerName>& former) {
   check_types(app);
   app.formatter(std::make_shared<HelpFormatter>());

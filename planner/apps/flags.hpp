@@ -25,14 +25,15 @@
 /// tests/house/command_lines_test.cpp.
 namespace hlc::apps {
 
-/// The App of every program. All of CLI11 is inline; as this class is constructed and parsed in its
-/// own file, the other files compile only the templates that declare their flags.
-class Command : public CLI::App {
+/// The App of every program. All of CLI11 is inline; as this class is constructed, destroyed and
+/// parsed in its own file, which has the virtual functions then, the other files compile only the
+/// templates that declare their flags.
+class CommandLine : public CLI::App {
  public:
-  Command(std::string description, std::string name);
-  ~Command() override;
-  Command(const Command&) = delete;
-  Command& operator=(const Command&) = delete;
+  CommandLine(std::string description, std::string name);
+  ~CommandLine() override;
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
 };
 
 /// Prints an error in one line, even if names of files and keys in it contain line breaks.
@@ -80,7 +81,7 @@ template <class IsGood>
 /// Nothing if the flags are good; otherwise the exit code: 0 after the help or the version, 2 after
 /// one line about the bad flag, or about a help that could not be printed.
 /// @param former  names of flags up to the last release
-[[nodiscard]] std::optional<int> parse_flags(CLI::App& app, int argc, char** argv,
+[[nodiscard]] std::optional<int> parse_flags(CommandLine& app, int argc, char** argv,
                                              const std::vector<FormerName>& former = {});
 
 /// Runs the program's work, which returns nothing or an exit code. Returns that code, or 0, if the

@@ -53,7 +53,7 @@ void run(const std::string& name, const std::string& blocks, double scale,
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Writes a CommonRoad 2020a map: of the same shape as the lab's, or of a town.",
       "generate_map"};
   std::string name = kLabLike;

@@ -27,7 +27,7 @@ void run(CommonRoadImport import, const hlc::apps::OutputFile& out) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Makes a scenario of the planning problems of a CommonRoad file, for all programs that take "
       "one. What the scenario cannot honour is refused by its name.",
       "import_commonroad"};

@@ -339,7 +339,7 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Compares this planner with OMPL's own kinodynamic planners on one problem.", "ompl_example"};
   Flags flags;
   declare(app, flags);

@@ -216,8 +216,8 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{"Pareto front of the maneuvers between two trims, as a table and a plot.",
-                         "pareto_front"};
+  hlc::apps::CommandLine app{
+      "Pareto front of the maneuvers between two trims, as a table and a plot.", "pareto_front"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(

@@ -284,7 +284,7 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Solves one planning problem from a file, or a joint one of several vehicles.",
       "plan_problem"};
   Flags flags;

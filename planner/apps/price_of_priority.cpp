@@ -315,7 +315,7 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Measures what prioritised planning costs: draws planning problems of several cars in "
       "conflict, plans one after the other by several rules, and compares with the joint optimum.",
       "price_of_priority"};

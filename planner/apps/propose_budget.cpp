@@ -223,7 +223,7 @@ int run(const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Proposes max_expansions for a scenario: measures the expansions per second of its engine on "
       "this machine, with the scenario's problems and with one in which the whole tree is "
       "searched without a result, and takes the slowest.",

@@ -193,8 +193,8 @@ int run(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{"Plans a scenario with vehicles that follow perfectly, in one process.",
-                         "rollout"};
+  hlc::apps::CommandLine app{
+      "Plans a scenario with vehicles that follow perfectly, in one process.", "rollout"};
   Choices choices;
   hlc::apps::declare_scenario_flags(app, choices.scenario);
   app.add_option("--steps", choices.scenario.steps, "instead of the scenario's")

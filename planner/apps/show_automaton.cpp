@@ -140,7 +140,7 @@ void print_subgraphs(const AutomatonFile& file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{"Checks an automaton file and prints its content.", "show_automaton"};
+  hlc::apps::CommandLine app{"Checks an automaton file and prints its content.", "show_automaton"};
   std::filesystem::path path;
   std::optional<std::filesystem::path> configuration;
   app.add_option("AUTOMATON", path, "file written by build_automaton")

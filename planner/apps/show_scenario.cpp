@@ -114,7 +114,7 @@ void print(const hlc::scenario::Scenario& scenario, const Parts& parts) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{"Checks a scenario file and describes a run of it.", "show_scenario"};
+  hlc::apps::CommandLine app{"Checks a scenario file and describes a run of it.", "show_scenario"};
   hlc::scenario::ScenarioChoices choices;
   Parts parts;
   hlc::apps::OutputFile plot{"--plot", {}};

@@ -76,8 +76,9 @@ vehicle::VehicleLimits read_limits(const Node& limits) {
   vehicle::VehicleLimits l;
   l.acceleration_mps2 = limits.required<double>("acceleration_mps2", above(0.0, kStrongest));
   l.steering_rate_radps = limits.required<double>("steering_rate_radps", above(0.0, kStrongest));
-  l.speed_min_mps = limits.required<double>("speed_min_mps", between(0.0, kFastest_mps));
-  l.speed_max_mps = limits.required<double>("speed_max_mps", above(l.speed_min_mps, kFastest_mps));
+  l.speed_min_mps = limits.required<double>("speed_min_mps", between(0.0, kMaxVehicleSpeed_mps));
+  l.speed_max_mps =
+      limits.required<double>("speed_max_mps", above(l.speed_min_mps, kMaxVehicleSpeed_mps));
   constexpr double kSharpest_rad = 1.5;  // the model has no curvature at pi / 2
   l.steering_max_rad = limits.required<double>("steering_max_rad", above(0.0, kSharpest_rad));
   if (limits.has("friction_mps2")) {

@@ -8,7 +8,7 @@
 namespace hlc::automaton {
 
 /// More is no wheeled vehicle's speed, but given in another unit.
-inline constexpr double kFastest_mps = 1000.0;
+inline constexpr double kMaxVehicleSpeed_mps = 1000.0;
 
 /// Keys wheelbase_m, rear_axle_to_cg_m, length_m, width_m, safety_margin_m (default 0.010), each
 /// at most 100 m. Others are not checked.
@@ -21,7 +21,7 @@ inline constexpr double kFastest_mps = 1000.0;
     const vehicle::VehicleLimits& limits);
 
 /// Keys as the members of VehicleLimits, all required except friction_mps2 and curvature_max_per_m.
-/// At most kFastest_mps, 1e4 m/s², 1e4 rad/s, 1.5 rad, 1e4 1/m.
+/// At most kMaxVehicleSpeed_mps, 1e4 m/s², 1e4 rad/s, 1.5 rad, 1e4 1/m.
 [[nodiscard]] vehicle::VehicleLimits read_limits(const Node& limits);
 
 /// Keys speed_mps, steering_rad, within the limits. Others are not checked.

@@ -109,8 +109,8 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
       .subgraph = node.required<std::string>("subgraph"),
       .steps = node.required<std::size_t>("steps", between(1.0, 100000.0)),
       .horizon_steps = node.optional<std::size_t>("horizon_steps", 8, between(1.0, 64.0)),
-      .reference_speed_mps =
-          node.optional<double>("reference_speed_mps", 0.8, above(0.0, automaton::kFastest_mps)),
+      .reference_speed_mps = node.optional<double>("reference_speed_mps", 0.8,
+                                                   above(0.0, automaton::kMaxVehicleSpeed_mps)),
       .contouring_weight = node.optional<double>("contouring_weight", 0.0,
                                                  between(0.0, controller::kMostContouringWeight)),
       .strategies = read_strategies(node),

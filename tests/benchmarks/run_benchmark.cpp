@@ -83,7 +83,8 @@ void run(const hlc::scenario::ScenarioChoices& choices, std::size_t repeats) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{"Times whole runs of a scenario within this process.", "run_benchmark"};
+  hlc::apps::CommandLine app{"Times whole runs of a scenario within this process.",
+                             "run_benchmark"};
   hlc::scenario::ScenarioChoices choices;
   std::size_t repeats = 20;
   hlc::apps::declare_scenario_flags(app, choices);

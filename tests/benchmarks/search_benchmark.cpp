@@ -102,8 +102,8 @@ bool run(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{"Measures the search engines against a plain reference search.",
-                         "search_benchmark"};
+  hlc::apps::CommandLine app{"Measures the search engines against a plain reference search.",
+                             "search_benchmark"};
   Choices choices{.sets = all_sets()};
   hlc::apps::declare_output(app, choices.json, "also write the figures to this file (JSON)");
   app.add_option("--sets", choices.sets, "problem sets, separated by commas (default: all)")

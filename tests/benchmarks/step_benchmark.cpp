@@ -82,7 +82,7 @@ void run(const hlc::scenario::ScenarioChoices& choices, const std::vector<std::s
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Times a step of all cars within this process, for several numbers of cars.",
       "step_benchmark"};
   hlc::scenario::ScenarioChoices choices;

@@ -101,8 +101,8 @@ class Recorder {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  hlc::apps::Command app{"Writes every trajectory command of the lab domain to a file.",
-                         "command_recorder"};
+  hlc::apps::CommandLine app{"Writes every trajectory command of the lab domain to a file.",
+                             "command_recorder"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;

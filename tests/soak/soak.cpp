@@ -113,7 +113,7 @@ CLI::App* add(CLI::App& app, const char* name, const char* what, Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Drives three cars again and again and looks for what only shows now and then.", "soak"};
   Flags flags;
   CLI::App* faults =

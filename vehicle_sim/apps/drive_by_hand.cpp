@@ -153,8 +153,8 @@ class HandDriver {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  hlc::apps::Command app{"Drives a guest of a running scenario by keyboard or gamepad.",
-                         "drive_by_hand"};
+  hlc::apps::CommandLine app{"Drives a guest of a running scenario by keyboard or gamepad.",
+                             "drive_by_hand"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_flags(app, argc, argv)) return *code;

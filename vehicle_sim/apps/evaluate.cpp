@@ -273,7 +273,7 @@ CLI::Option* declare(CLI::App& app, Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Simulates many runs and writes their rows; with --report, compares them with the paper's "
       "Table 2.",
       "evaluate"};

@@ -241,7 +241,7 @@ int explain(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Why a vehicle did what it did in a step of a run of logical time: what it knew, what it "
       "would have done alone, without each of the others, and without each limit of its plan: the "
       "lane boundary, the end of its right of way, a zone, a request. Each answer without others "

@@ -173,7 +173,7 @@ int drive(Choices choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app(
+  hlc::apps::CommandLine app(
       "Runs of three cars in memory, each with one fault of one process: every role, fault, phase "
       "and kind of run.",
       "fault_matrix");

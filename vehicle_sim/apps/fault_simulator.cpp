@@ -237,8 +237,8 @@ void add_campaign_flags(CLI::App& app, Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app("Runs in memory with faults that a seed draws, checked in every tick.",
-                         "fault_simulator");
+  hlc::apps::CommandLine app("Runs in memory with faults that a seed draws, checked in every tick.",
+                             "fault_simulator");
   hlc::apps::declare_help_end(
       app, {.examples = {"fault_simulator --cars 3 --runs 200 --seed 1",
                          "fault_simulator --cars 3 --replay 17 --trace trace.txt"},

@@ -216,7 +216,7 @@ int replay(const Choices& choices) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  hlc::apps::Command app{
+  hlc::apps::CommandLine app{
       "Drives a run again in one process. In logical time the same run must give the same "
       "trace_sha256; with --from_step and --set it is a \"what if\" with a run folder of its own. "
       "In "

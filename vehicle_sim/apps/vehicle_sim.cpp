@@ -194,8 +194,8 @@ hlc::apps::VehicleProcessOptions process_options(const Flags& flags) {
 
 int main(int argc, char** argv) {
   hlc::time::StopSignals signals;
-  hlc::apps::Command app{"Simulated µCars: follow commands and publish their states, every 20 ms.",
-                         "vehicle_sim"};
+  hlc::apps::CommandLine app{
+      "Simulated µCars: follow commands and publish their states, every 20 ms.", "vehicle_sim"};
   Flags flags;
   declare(app, flags);
   if (const auto code = hlc::apps::parse_lab_flags(app, flags.network, argc, argv)) return *code;

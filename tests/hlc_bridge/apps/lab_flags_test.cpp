@@ -24,7 +24,7 @@ struct LabProgram {
     complaint = testing::internal::GetCapturedStderr();
     return code;
   }
-  Command app{"", "program"};
+  CommandLine app{"", "program"};
   NetworkFlags network;
   std::vector<int> ids;
   std::string complaint;

@@ -90,15 +90,20 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"SeedWhereNothingIsDrawn", "--seed 3", "--seed: "},
         Refused{"NoSuchMap", "--map nowhere.xml", "--map = "},
         Refused{"MapIsAFolder", "--map full", "--map = "},
-        Refused{"MapWhereNoLanesAre", "--scenario circle --map file", "--map: "}),
+        Refused{"OtherRoutes", "--routes straight", "--routes = straight, must be random"},
+        Refused{"OtherProfile", "--profile 2021",
+                "--profile = 2021, must be one of default, 2022"}),
     [](const auto& one) { return one.param.name; });
 
 TEST_F(FreshClone, RightValuesAreBuiltFor) {
   put(clone_ / "own.yaml", "{routes: random, draw: {cars: 2}, automaton: a.yaml}");
+  put(clone_ / "cones.yaml", "{routes: random, obstacles: [{name: cone, circle: {x_m: 1}}]}");
+  fs::create_directories(clone_ / "reconfiguration");  // hides no shipped scenario
   for (const char* flags :
        {"", "--scenario circle --cars 3", "--scenario lab_cars --cars 30 --seed 3", "--out new",
         "--scenario own.yaml --map file --cars 2 --seed 3", "--map file --routes random --seed 3",
-        "--security=", "--dump_problems new"}) {
+        "--security=", "--dump_problems new", "--scenario reconfiguration", "--profile 2022",
+        "--scenario cones.yaml --map file"}) {
     EXPECT_EQ(run_lab(flags).output, "builds\n") << flags;
     EXPECT_FALSE(fs::exists(clone_ / "new")) << "made although there is no program";
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hlc_bridge/record/configuration.hpp"
 #include "planner/common/demand.hpp"
 #include "vehicle_sim/python/module/arrays.hpp"
 
@@ -72,7 +73,9 @@ std::vector<VehicleId> order_of(const PrioritySituation& situation) {
 }  // namespace
 
 constinit const coordination::PriorityStrategy kPythonPriorities{
-    .name = "python", .meaning = "in the order of a Python function", .assign = &order_of};
+    .name = record::kRuleInPython,
+    .meaning = "in the order of a Python function",
+    .assign = &order_of};
 
 PriorityRuleInForce::PriorityRuleInForce(const py::object& rule) : before_(rule_in_force) {
   rule_in_force = rule.is_none() ? nullptr : &rule;
