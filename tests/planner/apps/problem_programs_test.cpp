@@ -70,7 +70,7 @@ TEST_F(ProblemPrograms, NoLineOfAPlanIsWiderThanANarrowTerminal) {
   const Outcome narrow = run_program("plan_problem " + kShipped, "COLUMNS=60 ");
   EXPECT_EQ(narrow.exit_code, 0) << narrow.output;
   EXPECT_EQ(test::lines_beyond(60, narrow.output), "");
-  EXPECT_THAT(narrow.output, HasSubstr("\nstep distance [m]\n"));
+  EXPECT_THAT(narrow.output, HasSubstr("\nstep ref_x [m] ref_y [m]  distance [m]\n"));
 }
 
 TEST_F(ProblemPrograms, TheJsonHoldsThePlan) {
