@@ -62,6 +62,7 @@ fi
 : >"$log"
 start=$SECONDS
 run cmake --preset "$preset"
+# Not a pipe: with pipefail it would fail where grep has found its line and ends before the build tool does.
 has_to_compile() { grep -q 'Building CXX' <(cmake --build --preset "$preset" "${targets[@]}" -- -n 2>&1); }
 if [[ -t 1 ]]; then # one line that is rewritten
   progress() { awk '/^\[/ {printf "\r\033[KBuilding %s", $1; fflush()} END {printf "\r\033[K"}'; }

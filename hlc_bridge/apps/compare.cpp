@@ -38,7 +38,7 @@ std::optional<hlc::road::LaneletMap> map_of(const hlc::record::RunFolder& run) {
   return hlc::road::read_lanelet_map(*run.scenario.map_file);
 }
 
-/// For the terminal: sentences up to the first empty line, then tables.
+/// For the terminal: sentences up to the first empty line, then tables; without one, all as tables.
 std::string fitted(const std::string& text) {
   const std::size_t tables = text.find("\n\n") + 1;
   return hlc::apps::fitted_lines(text.substr(0, tables)) +
