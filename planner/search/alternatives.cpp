@@ -28,6 +28,7 @@ HorizonProblem behind(const automaton::Maneuver& first, const HorizonProblem& pr
   drop_first(rest.obstacles_m);
   drop_first(rest.avoided_in_motion_m);
   rest.incumbent.clear();
+  rest.may_turn_in_place = false;
   return rest;
 }
 
@@ -60,6 +61,7 @@ std::vector<Alternative> alternatives_to(const automaton::Maneuver* except,
     const bool ends_at_limit = automaton::is_at_steering_limit(
         automaton.trims[edge.to.index], automaton.vehicle, automaton.identified);
     if (edge.maneuver == except || (ends_at_limit && problem.avoids_steering_limit)) continue;
+    if (turns_in_place(*edge.maneuver) && !problem.may_turn_in_place) continue;
     Alternative alternative{.first = edge.maneuver, .obstruction = {}, .best = {}};
     alternative.obstruction = obstruction_of(*edge.maneuver, 1, to_frame(problem.start), problem);
     if (!alternative.obstruction) {

@@ -21,6 +21,7 @@ namespace hlc::search {
 /// (Section 4) c_j = 0. With c_j = sqrt(w) n_j, n_j the unit normal of the reference path at r_j,
 /// the error across the path (contouring error) counts 1 + w times as much as the error along it.
 /// With SearchOptions::criterion_weights the maneuvers' own criteria are added (edge_costs.hpp).
+/// The wheels of a standing vehicle are turned in the first step only (`turns_in_place`).
 /// Coordinates are at most kLargest_m, the start's heading is at most kLargestHeading_rad.
 struct HorizonProblem {
   static constexpr double kLargest_m = kLargestCoordinate_m;
@@ -42,6 +43,9 @@ struct HorizonProblem {
   /// No step may end in a trim near the steering limit (is_at_steering_limit), where a vehicle may
   /// drift from its plan.
   bool avoids_steering_limit{false};
+  /// Whether the first step may turn the wheels of a standing vehicle: not if it is a later step of
+  /// a plan.
+  bool may_turn_in_place{true};
   /// A known plan, n maneuvers from the start: the plan in force, shifted by one step and ended in
   /// standstill. Empty if there is none. An engine checks it like any other path and ignores it if
   /// it is invalid; the best path is then never worse, and is found sooner.
@@ -67,6 +71,15 @@ struct HorizonProblem {
 /// motion.
 [[nodiscard]] inline bool stands_in(const automaton::Maneuver& maneuver) {
   return maneuver.from == maneuver.to && maneuver.displacement == Pose{};
+}
+
+/// Whether the maneuver turns the wheels of a vehicle that stands, from one equilibrium to another.
+/// Whenever a vehicle turns them while it waits, it stands at the same place. If every step could,
+/// there would be k times as many plans of standing for k steps and then driving, all of the same
+/// cost, or 3^k if it turns them to and fro; so only the first step may. The rest of such a plan,
+/// followed by standing, is one, too (recursive feasibility).
+[[nodiscard]] inline bool turns_in_place(const automaton::Maneuver& maneuver) {
+  return maneuver.from != maneuver.to && maneuver.displacement == Pose{};
 }
 
 enum class CostToGo {

@@ -40,6 +40,11 @@ class Enumeration {
 
   [[nodiscard]] bool is_allowed(const automaton::Edge& edge) const {
     const automaton::UniversalAutomaton& automaton = subgraph_.automaton();
+    const TrimId from = edge.maneuver->from;
+    const bool stands = automaton.trims[from.index].speed_mps == 0.0 &&
+                        automaton.trims[edge.to.index].speed_mps == 0.0;
+    const bool is_first = path_.empty() && problem_.may_turn_in_place;
+    if (stands && from != edge.to && !is_first) return false;
     return !problem_.avoids_steering_limit ||
            !automaton::is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle,
                                             automaton.identified);

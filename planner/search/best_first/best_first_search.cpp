@@ -51,7 +51,7 @@ BestFirstSearch::BestFirstSearch(const automaton::Subgraph& subgraph,
            subgraph.distance_to_standstill(edge.to),
            automaton::is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle,
                                            automaton.identified),
-           costs_.reduced_cost(*edge.maneuver)});
+           turns_in_place(*edge.maneuver), costs_.reduced_cost(*edge.maneuver)});
     }
   }
 }
@@ -165,8 +165,7 @@ bool BestFirstSearch::write_incumbent(const HorizonProblem& problem, SearchResul
   for (std::size_t depth = 0; depth < n && is_path; ++depth) {
     const automaton::Maneuver* const maneuver = problem.incumbent[depth];
     const Step* const step = find_step(trim, maneuver);
-    is_path = step != nullptr && step->distance_to_standstill <= n - (depth + 1) &&
-              !(step->ends_at_limit && problem.avoids_steering_limit) &&
+    is_path = step != nullptr && permits(problem, *step, depth) &&
               collision_.is_free(*maneuver, depth + 1, frame);
     if (!is_path) break;
     frame = compose(frame, step->displacement);
@@ -194,6 +193,12 @@ const BestFirstSearch::Step* BestFirstSearch::find_step(TrimId trim,
   return nullptr;
 }
 
+bool BestFirstSearch::permits(const HorizonProblem& problem, const Step& step, std::size_t depth) {
+  return step.distance_to_standstill <= problem.horizon_steps() - (depth + 1) &&
+         !(step.ends_at_limit && problem.avoids_steering_limit) &&
+         !(step.turns_in_place && (depth > 0 || !problem.may_turn_in_place));
+}
+
 template <typename OpenList>
 void BestFirstSearch::expand(VertexId vertex, const HorizonProblem& problem,
                              const CostToGoFunction& cost_to_go, OpenList& open) {
@@ -202,8 +207,7 @@ void BestFirstSearch::expand(VertexId vertex, const HorizonProblem& problem,
   const std::size_t steps_left = problem.horizon_steps() - depth;
 
   for (const Step& step : steps_[parent.trim.index]) {
-    if (step.distance_to_standstill > steps_left) continue;
-    if (step.ends_at_limit && problem.avoids_steering_limit) continue;
+    if (!permits(problem, step, parent.depth)) continue;
     const Frame frame = compose(parent.frame, step.displacement);
     const double cost_to_come =
         parent.cost_to_come + problem.position_cost_m2(depth - 1, frame.origin_m) + step.cost;

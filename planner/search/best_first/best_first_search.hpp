@@ -22,10 +22,11 @@ namespace hlc::search {
 ///
 ///     distance_to_standstill(child's trim) <= n - (j + 1),
 ///
-/// (and is not near the steering limit, if the problem avoids that), so every vertex of depth n
-/// stands. The open list is ordered by f = g + h (cost-to-come + cost-to-go), then deeper first,
-/// then in the order of generation; hence two searches of one problem agree in everything. The
-/// maneuvers' own costs (EdgeCosts) belong to g, their least sum over the rest of the path to h.
+/// (and is not near the steering limit, if the problem avoids that; and only the first edge may
+/// turn the wheels of a standing vehicle), so every vertex of depth n stands. The open list is
+/// ordered by f = g + h (cost-to-come + cost-to-go), then deeper first, then in the order of
+/// generation; hence two searches of one problem agree in everything. The maneuvers' own costs
+/// (EdgeCosts) belong to g, their least sum over the rest of the path to h.
 ///
 /// Collision checks are lazy: the edge into a vertex is checked when the vertex is taken from the
 /// open list, and the vertex is dropped if the edge is not free. The root has no such edge and is
@@ -71,6 +72,7 @@ class BestFirstSearch final : public SearchEngine {
     TrimId to;
     std::size_t distance_to_standstill;
     bool ends_at_limit;
+    bool turns_in_place;
     double cost;  ///< EdgeCosts::reduced_cost
   };
 
@@ -92,6 +94,9 @@ class BestFirstSearch final : public SearchEngine {
     bool operator()(const OpenEntry& a, const OpenEntry& b) const;
   };
 
+  /// Whether the plan's step number `depth`, from 0, may be this one.
+  [[nodiscard]] static bool permits(const HorizonProblem& problem, const Step& step,
+                                    std::size_t depth);
   template <typename OpenList>
   void expand(VertexId vertex, const HorizonProblem& problem, const CostToGoFunction& cost_to_go,
               OpenList& open);

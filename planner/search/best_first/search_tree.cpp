@@ -28,6 +28,7 @@ std::vector<std::vector<double>> paths_to_go(const automaton::Subgraph& subgraph
   for (std::size_t steps = 1; steps <= n; ++steps) {
     for (const TrimId trim : subgraph.start_trims()) {
       for (const automaton::Edge& edge : subgraph.successors(trim, steps)) {
+        if (turns_in_place(*edge.maneuver) && (steps < n || !problem.may_turn_in_place)) continue;
         if (is_allowed(edge.to)) paths[steps][trim.index] += paths[steps - 1][edge.to.index];
       }
     }

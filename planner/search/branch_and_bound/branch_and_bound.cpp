@@ -146,7 +146,9 @@ class BranchAndBound::Core {
 
     if (levels_.size() < n) levels_.resize(n);
     for (std::size_t depth = 0; depth < n; ++depth) {
-      levels_[depth] = tables.level(n - depth - 1, problem.avoids_steering_limit);
+      levels_[depth] = tables.level(n - depth - 1,
+                                    {.at_limit = problem.avoids_steering_limit,
+                                     .turning_in_place = depth > 0 || !problem.may_turn_in_place});
     }
     search.levels = levels_.data();
     search.path = path.data();

@@ -222,9 +222,9 @@ void TableStore::list_permitted(const automaton::Subgraph& subgraph, const EdgeC
     is_at_limit.push_back(
         automaton::is_at_steering_limit(trim, automaton.vehicle, automaton.identified));
   }
-  for (const bool avoids_limit : {false, true}) {
-    auto& penalty = penalty_[avoids_limit ? 1 : 0];
-    auto& permitted = permitted_[avoids_limit ? 1 : 0];
+  for (const Excluded& excluded : kChoices) {
+    auto& penalty = penalty_[number_of(excluded)];
+    auto& permitted = permitted_[number_of(excluded)];
     penalty.assign(rows * edges_.size(), kForbidden);
     permitted.assign(rows * num_trims_, 0);
     for (std::size_t left = 0; left < rows; ++left) {
@@ -234,7 +234,8 @@ void TableStore::list_permitted(const automaton::Subgraph& subgraph, const EdgeC
           if (maneuvers_[edge] == nullptr) continue;
           const TrimId to{edges_[edge].to};
           if (subgraph.distance_to_standstill(to) > left) continue;
-          if (avoids_limit && is_at_limit[to.index]) continue;
+          if (excluded.at_limit && is_at_limit[to.index]) continue;
+          if (excluded.turning_in_place && turns_in_place(*maneuvers_[edge])) continue;
           penalty[left * edges_.size() + edge] = edges_[edge].cost + costs.to_go(to, left);
           ++permitted[left * num_trims_ + trim];
         }
@@ -358,13 +359,12 @@ void TableStore::list_levels(std::size_t max_steps) {
       places.push_back(static_cast<std::uint32_t>(row * num_bound_blocks_ + block));
     }
   }
-  for (const std::size_t avoids_limit : {0U, 1U}) {
+  for (std::size_t choice = 0; choice < kChoices.size(); ++choice) {
     for (std::size_t steps_left = 0; steps_left < max_steps; ++steps_left) {
       const std::size_t left = std::min(steps_left, penalty_rows_ - 1);
-      levels_[avoids_limit].push_back({&penalty_[avoids_limit][left * edges_.size()],
-                                       &permitted_[avoids_limit][left * num_trims_],
-                                       bound_places_[steps_left].size(),
-                                       bound_places_[steps_left].data()});
+      levels_[choice].push_back(
+          {&penalty_[choice][left * edges_.size()], &permitted_[choice][left * num_trims_],
+           bound_places_[steps_left].size(), bound_places_[steps_left].data()});
     }
   }
 }

@@ -33,10 +33,14 @@ class TableStore {
   static constexpr std::size_t kMostSteps = 80;
 
   [[nodiscard]] const Tables& view() const { return view_; }
-  /// The depth with `steps_left` steps after an edge from it, for plans that may or may not end
-  /// steps in trims near the steering limit.
-  [[nodiscard]] const Level& level(std::size_t steps_left, bool avoids_limit) const {
-    return levels_[avoids_limit ? 1 : 0][steps_left];
+  /// Which edges a depth excludes beside those from which a plan cannot end in standstill.
+  struct Excluded {
+    bool at_limit{};          ///< those into trims near the steering limit
+    bool turning_in_place{};  ///< `turns_in_place`
+  };
+  /// The depth with `steps_left` steps after an edge from it.
+  [[nodiscard]] const Level& level(std::size_t steps_left, const Excluded& excluded) const {
+    return levels_[number_of(excluded)][steps_left];
   }
   /// The maneuver of an edge; nullptr for padding.
   [[nodiscard]] const automaton::Maneuver* maneuver(std::uint32_t edge) const {
@@ -64,6 +68,13 @@ class TableStore {
   [[nodiscard]] std::size_t most_edges() const { return most_edges_; }
 
  private:
+  static constexpr std::array<Excluded, 4> kChoices{
+      {{false, false}, {true, false}, {false, true}, {true, true}}};
+  /// Its place among kChoices.
+  [[nodiscard]] static std::size_t number_of(const Excluded& excluded) {
+    return (excluded.at_limit ? 1U : 0U) + (excluded.turning_in_place ? 2U : 0U);
+  }
+
   void add_edges(const automaton::Subgraph& subgraph, const EdgeCosts& costs);
   /// A rectangle around the swept areas of a trim's edges.
   void add_surroundings(std::span<const automaton::Edge> successors);
@@ -87,9 +98,9 @@ class TableStore {
   std::vector<double> displacement_y_;
   std::vector<BoundBlock> bounds_;
   std::vector<std::vector<std::uint32_t>> bound_places_;  ///< Level::bounds, by steps left
-  std::array<std::vector<Level>, 2> levels_;
-  std::array<std::vector<double>, 2> penalty_;
-  std::array<std::vector<std::uint32_t>, 2> permitted_;
+  std::array<std::vector<Level>, kChoices.size()> levels_;
+  std::array<std::vector<double>, kChoices.size()> penalty_;
+  std::array<std::vector<std::uint32_t>, kChoices.size()> permitted_;
   std::vector<PolygonBlock> area_blocks_;
   std::vector<LaneArea> lane_areas_;
   std::vector<Surroundings> around_;

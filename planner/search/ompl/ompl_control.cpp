@@ -65,6 +65,7 @@ class ManeuverPropagator final : public oc::StatePropagator {
                                           automaton.identified)) {
         continue;
       }
+      if (turns_in_place(*one.maneuver) && (from.step > 0 || !problem_.may_turn_in_place)) continue;
       choices.push_back(one.maneuver);
     }
     return choices;

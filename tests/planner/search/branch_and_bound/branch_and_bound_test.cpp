@@ -228,6 +228,35 @@ TEST(BranchAndBound, AgreesWithBestFirstOnAGridOfThirtyFourTrims) {
   EXPECT_GE(compare_horizons(grid, {6, 8, 10}, test::num_costly_seeds(30)), 8U / test::kThinning);
 }
 
+// Who stands with straight wheels has to turn them before it can drive.
+TEST(BranchAndBound, TurnsTheWheelsOfAStandingVehicleInTheFirstStepOnly) {
+  automaton::SubgraphSpec spec{.name = "turning", .labels = {kSlow.label}, .trims = {}};
+  for (std::size_t i = 0; i < 5; ++i) spec.trims.push_back({i});
+  spec.disabled_edges = {{.edge = {{0}, {2}}, .label = {}}, {.edge = {{0}, {4}}, .label = {}}};
+  Engines engines({test::make_test_automaton(
+                       {{0.0, 0.0}, {0.0, 0.3}, {0.4, 0.3}, {0.0, -0.3}, {0.4, -0.3}}, {kSlow}),
+                   spec});
+  std::uint64_t turned = 0;
+  const std::uint64_t problems = test::num_seeds(300);
+  for (std::uint64_t seed = 0; seed < problems; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    HorizonProblem problem = test::random_problem(engines.subgraph, 4, random);
+    problem.may_turn_in_place = seed % 4 != 0;
+    const auto truth = test::exhaustive_search(engines.subgraph, problem);
+    const SearchResult result = engines.fast.search(problem, never_stop);
+    const SearchResult plain = engines.plain.search(problem, never_stop);
+    ASSERT_EQ(result.status == SearchStatus::kOptimal, truth.feasible);
+    expect_same(engines.portable.search(problem, never_stop), result);
+    ASSERT_EQ(plain.status, result.status);
+    if (!truth.feasible) continue;
+    ASSERT_NEAR(result.cost, truth.cost, 1e-9);
+    ASSERT_NEAR(plain.cost, truth.cost, 1e-9);
+    if (turns_in_place(*result.maneuvers.front())) ++turned;
+  }
+  EXPECT_GE(turned, problems / 10);
+}
+
 // Also where a search ends early: its lower bound shows every bit of the children's bounds.
 TEST(BranchAndBound, AllKernelsGiveTheSameBits) {
   const automaton::Subgraph subgraph = test::make_test_subgraph();
