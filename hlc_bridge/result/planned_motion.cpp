@@ -32,7 +32,13 @@ const automaton::Maneuver* maneuver_during(const StepRecord& row, const StepReco
   const bool is_self_loop = report.maneuver == automaton::kSelfLoopLabel;
   const TrimId to = is_self_loop ? report.planned_trim : next->record.report.planned_trim;
   const automaton::Maneuver* const found = automaton.find(report.planned_trim, to, report.maneuver);
-  return found != nullptr && found->label == report.maneuver ? found : nullptr;
+  if (found != nullptr && found->label == report.maneuver) return found;
+  // Or it was to turn its wheels where it stands, and is re-anchored with others.
+  const auto stands = [&automaton](TrimId trim) {
+    return trim.index < automaton.trims.size() && automaton.trims[trim.index].is_equilibrium();
+  };
+  if (report.maneuver.empty() || !stands(report.planned_trim) || !stands(to)) return nullptr;
+  return automaton.find(report.planned_trim, report.planned_trim, automaton::kSelfLoopLabel);
 }
 
 std::vector<const automaton::Maneuver*> planned_maneuvers(

@@ -11,8 +11,9 @@ namespace hlc::controller {
 /// A plan that ends this much before its reference does is held up.
 inline constexpr double kHeldUp_m = 0.1;
 
-/// An error across the path counts this many times as much for a vehicle that is held up: it is to
-/// wait in its lane, while one with free road may cut a bend a little and is faster so.
+/// The contouring weight (HorizonProblem) of a vehicle that is held up is this many times that of
+/// one with free road: it waits in its lane, while the other may cut a bend a little and is faster
+/// so.
 inline constexpr double kHeldUpContouring = 5.0;
 
 /// Arc length of the place on the path where the plan ends, counted on from the tracker's, if the

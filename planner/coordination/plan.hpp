@@ -20,7 +20,7 @@ class Plan {
   using Owner = std::shared_ptr<const automaton::UniversalAutomaton>;
 
   /// Standing at `pose` from t(first) on.
-  /// @param standstill  self-loop of the equilibrium trim
+  /// @param standstill  self-loop of an equilibrium trim
   /// @param owner       of it
   Plan(StepIndex first, const Pose& pose, const automaton::Maneuver& standstill,
        const Owner& owner = {});

@@ -43,8 +43,8 @@ struct HorizonProblem {
   /// No step may end in a trim near the steering limit (is_at_steering_limit), where a vehicle may
   /// drift from its plan.
   bool avoids_steering_limit{false};
-  /// Whether the first step may turn the wheels of a standing vehicle: not if it is a later step of
-  /// a plan.
+  /// Whether the first step may turn the wheels of a standing vehicle. Not where the problem is the
+  /// rest of another one, behind its first step; no file has such a problem.
   bool may_turn_in_place{true};
   /// A known plan, n maneuvers from the start: the plan in force, shifted by one step and ended in
   /// standstill. Empty if there is none. An engine checks it like any other path and ignores it if
@@ -73,11 +73,14 @@ struct HorizonProblem {
   return maneuver.from == maneuver.to && maneuver.displacement == Pose{};
 }
 
-/// Whether the maneuver turns the wheels of a vehicle that stands, from one equilibrium to another.
-/// Whenever a vehicle turns them while it waits, it stands at the same place. If every step could,
-/// there would be k times as many plans of standing for k steps and then driving, all of the same
-/// cost, or 3^k if it turns them to and fro; so only the first step may. The rest of such a plan,
-/// followed by standing, is one, too (recursive feasibility).
+/// Whether the maneuver turns the wheels of a vehicle that stands: it leads from one equilibrium to
+/// another and moves nothing. (One that moves, as an optimum of J1 may, is an edge like all
+/// others.)
+///
+/// When a standing vehicle turns its wheels makes no difference to the cost, so there would be as
+/// many equally good plans of standing for k steps as there are ways to turn the wheels in k steps.
+/// So only the first step of a plan may turn them. The rest of such a plan, followed by standing,
+/// turns none (recursive feasibility).
 [[nodiscard]] inline bool turns_in_place(const automaton::Maneuver& maneuver) {
   return maneuver.from != maneuver.to && maneuver.displacement == Pose{};
 }

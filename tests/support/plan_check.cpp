@@ -83,6 +83,9 @@ std::string validate(const search::SearchResult& result, const automaton::Subgra
     if (!is_switched_on(maneuver, trim, subgraph)) {
       return "edge is not switched on" + at;
     }
+    if (search::turns_in_place(*maneuver) && (step > 1 || !problem.may_turn_in_place)) {
+      return "wheels turned in place" + at;
+    }
     if (!is_free(*maneuver, pose, step, problem)) {
       return "collision" + at;
     }

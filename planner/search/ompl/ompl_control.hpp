@@ -16,10 +16,11 @@ namespace hlc::search {
 ///
 /// A control is an integer c >= 0. In a state with trim q and j steps done, and m edges that a plan
 /// may take there (Subgraph::successors(q, n - j), without those that end near the steering limit
-/// if the problem avoids that), it drives number c mod m of them; for one duration of step_s, no
-/// other. Where the edge is not free (CollisionCheck in step j + 1), where there is none, or beyond
-/// the horizon the resulting state is out of bounds, hence not valid. So every path of such a
-/// planner to a StandstillGoal of the problem is a plan.
+/// if the problem avoids that, and without turning the wheels in place if j > 0), it drives number
+/// c mod m of them; for one duration of step_s, no other. Where the edge is not free
+/// (CollisionCheck in step j + 1), where there is none, or beyond the horizon the resulting state
+/// is out of bounds, hence not valid. So every path of such a planner to a StandstillGoal of the
+/// problem is a plan.
 ///
 /// The bounds of positions, from which such planners sample, contain everything that the automaton
 /// reaches. For one thread only.

@@ -117,6 +117,17 @@ TEST_F(PlannedMotionTest, StandingIsTheOwnStepWhateverTheNextTrimIs) {
             automaton_.find({0}, {0}, automaton::kSelfLoopLabel));
 }
 
+// It was to turn its wheels to one side, and its new plan begins with them to the other.
+TEST_F(PlannedMotionTest, BetweenEquilibriaWithoutSuchAManeuverTheCarStands) {
+  rows_[0].record.report.maneuver = "turning";
+  EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_), nullptr);
+  automaton_.trims[6].speed_mps = 0.0;
+  EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_),
+            automaton_.find({0}, {0}, automaton::kSelfLoopLabel));
+  rows_[0].record.report.maneuver = "";
+  EXPECT_EQ(maneuver_during(rows_[0], &rows_[1], automaton_), nullptr);
+}
+
 TEST_F(PlannedMotionTest, WithoutAPlanOrANextRowThereIsNone) {
   EXPECT_EQ(maneuver_during(rows_[0], nullptr, automaton_), nullptr);
   EXPECT_EQ(maneuver_during(rows_[0], &rows_[2], automaton_), nullptr);

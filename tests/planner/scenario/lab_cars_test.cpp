@@ -13,6 +13,7 @@
 #include "planner/scenario/right_of_way.hpp"
 #include "planner/scenario/scenario.hpp"
 #include "planner/scenario/starts.hpp"
+#include "planner/search/horizon_problem.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -111,6 +112,20 @@ TEST(LabCars, MoreCarsThanPathsStandAtFurtherLaneletsOfTheirLoops) {
         << vehicle.name;
   }
   EXPECT_EQ(with_random_starts(scenario, 2).vehicles.size(), 50U);
+}
+
+// If one moved the car by rounding alone, each step of a plan could turn them (turns_in_place).
+TEST(LabCars, AStandingCarTurnsItsWheelsWhereItStands) {
+  const Scenario scenario = read_scenario(lab_cars());
+  const automaton::UniversalAutomaton& automaton = scenario.subgraph->automaton();
+  std::size_t turns = 0;
+  for (const automaton::Maneuver& maneuver : automaton.maneuvers) {
+    const auto stands = [&](TrimId trim) { return automaton.trims[trim.index].is_equilibrium(); };
+    if (!stands(maneuver.from) || !stands(maneuver.to) || maneuver.from == maneuver.to) continue;
+    EXPECT_TRUE(search::turns_in_place(maneuver)) << maneuver.from.index << " -> " << maneuver.to.index;
+    ++turns;
+  }
+  EXPECT_EQ(turns, 4U) << "straight to left and right, and back";
 }
 
 TEST(LabCars, FiftyCarsDrive) {
