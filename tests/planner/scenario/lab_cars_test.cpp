@@ -122,7 +122,8 @@ TEST(LabCars, AStandingCarTurnsItsWheelsWhereItStands) {
   for (const automaton::Maneuver& maneuver : automaton.maneuvers) {
     const auto stands = [&](TrimId trim) { return automaton.trims[trim.index].is_equilibrium(); };
     if (!stands(maneuver.from) || !stands(maneuver.to) || maneuver.from == maneuver.to) continue;
-    EXPECT_TRUE(search::turns_in_place(maneuver)) << maneuver.from.index << " -> " << maneuver.to.index;
+    EXPECT_TRUE(search::turns_in_place(maneuver))
+        << maneuver.from.index << " -> " << maneuver.to.index;
     ++turns;
   }
   EXPECT_EQ(turns, 4U) << "straight to left and right, and back";
@@ -258,14 +259,19 @@ TEST(RandomRoutes, ACarDrivesRoundItsWholeRouteWithoutAStop) {
   const ScenarioVehicle& car = scenario.vehicles.front();
   rollout::Rollout rollout = rollout::make_rollout(scenario);
   std::vector<Point> positions_m;
+  int num_askew = 0;  // a plan that would end askew is dropped, and the one in force leads on
   for (int step = 0; step < 1800; ++step) {
     const std::vector<coordination::Report> reports = rollout.step();
-    ASSERT_NE(reports.front().status, coordination::StepStatus::kFallback) << step;
+    if (reports.front().status == coordination::StepStatus::kFallback) {
+      ASSERT_EQ(reports.front().reason, coordination::FallbackReason::kInfeasible) << step;
+      ++num_askew;
+    }
     positions_m.push_back(reports.front().planned_pose.position_m());
     if (step > 20) {
       ASSERT_GT((positions_m.back() - positions_m[positions_m.size() - 11]).norm(), 0.1) << step;
     }
   }
+  EXPECT_LE(num_askew, 9);
   const road::Progress progress = road::progress_along(car.path, positions_m);
   EXPECT_GT(progress.s_m.back() - progress.s_m.front(), car.path.length_m());
   EXPECT_LT(*std::ranges::max_element(progress.distance_m), 0.2);
