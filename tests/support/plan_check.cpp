@@ -63,6 +63,17 @@ double position_cost_m2(const search::HorizonProblem& problem, std::size_t step,
   return error_m.x() * error_m.x() + error_m.y() * error_m.y() + across * across;
 }
 
+namespace {
+
+std::string fault_of(const automaton::Maneuver& maneuver, const Pose& from, std::size_t step,
+                     const search::HorizonProblem& problem) {
+  const bool may_turn = step == 1 && problem.may_turn_in_place;
+  if (search::turns_in_place(maneuver) && !may_turn) return "wheels turned in place";
+  return is_free(maneuver, from, step, problem) ? "" : "collision";
+}
+
+}  // namespace
+
 std::string validate(const search::SearchResult& result, const automaton::Subgraph& subgraph,
                      const search::HorizonProblem& problem,
                      const std::vector<search::PlanningWeight>& weights) {
@@ -80,14 +91,9 @@ std::string validate(const search::SearchResult& result, const automaton::Subgra
   for (std::size_t step = 1; step <= n; ++step) {
     const std::string at = " in step " + std::to_string(step);
     const automaton::Maneuver* maneuver = result.maneuvers[step - 1];
-    if (!is_switched_on(maneuver, trim, subgraph)) {
-      return "edge is not switched on" + at;
-    }
-    if (search::turns_in_place(*maneuver) && (step > 1 || !problem.may_turn_in_place)) {
-      return "wheels turned in place" + at;
-    }
-    if (!is_free(*maneuver, pose, step, problem)) {
-      return "collision" + at;
+    if (!is_switched_on(maneuver, trim, subgraph)) return "edge is not switched on" + at;
+    if (const std::string fault = fault_of(*maneuver, pose, step, problem); !fault.empty()) {
+      return fault + at;
     }
     pose = compose(pose, maneuver->displacement);
     trim = maneuver->to;

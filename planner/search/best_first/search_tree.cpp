@@ -11,25 +11,31 @@ bool was_taken(const TreeVertex& vertex) {
   return vertex.fate != Fate::kBound && vertex.fate != Fate::kOpen;
 }
 
+/// Whether a path may take the edge with `steps` steps to go, beside what standstill demands.
+bool permits(const automaton::Subgraph& subgraph, const HorizonProblem& problem,
+             const automaton::Edge& edge, std::size_t steps) {
+  const bool is_first = steps == problem.horizon_steps() && problem.may_turn_in_place;
+  if (turns_in_place(*edge.maneuver) && !is_first) return false;
+  const automaton::UniversalAutomaton& automaton = subgraph.automaton();
+  return !problem.avoids_steering_limit ||
+         !automaton::is_at_steering_limit(automaton.trims[edge.to.index], automaton.vehicle,
+                                          automaton.identified);
+}
+
 /// Numbers of paths to an equilibrium, by steps left and trim.
 std::vector<std::vector<double>> paths_to_go(const automaton::Subgraph& subgraph,
                                              const HorizonProblem& problem) {
-  const automaton::UniversalAutomaton& automaton = subgraph.automaton();
-  const auto is_allowed = [&](TrimId trim) {
-    return !problem.avoids_steering_limit ||
-           !automaton::is_at_steering_limit(automaton.trims[trim.index], automaton.vehicle,
-                                            automaton.identified);
-  };
   const std::size_t n = problem.horizon_steps();
-  std::vector<std::vector<double>> paths(n + 1, std::vector<double>(automaton.trims.size(), 0.0));
+  std::vector<std::vector<double>> paths(
+      n + 1, std::vector<double>(subgraph.automaton().trims.size(), 0.0));
   for (const TrimId trim : subgraph.start_trims()) {
     paths[0][trim.index] = subgraph.distance_to_standstill(trim) == 0 ? 1.0 : 0.0;
   }
   for (std::size_t steps = 1; steps <= n; ++steps) {
     for (const TrimId trim : subgraph.start_trims()) {
       for (const automaton::Edge& edge : subgraph.successors(trim, steps)) {
-        if (turns_in_place(*edge.maneuver) && (steps < n || !problem.may_turn_in_place)) continue;
-        if (is_allowed(edge.to)) paths[steps][trim.index] += paths[steps - 1][edge.to.index];
+        if (!permits(subgraph, problem, edge, steps)) continue;
+        paths[steps][trim.index] += paths[steps - 1][edge.to.index];
       }
     }
   }

@@ -79,6 +79,12 @@ bool holds_origin(const ConvexPolygon& area_m) {
   return !corners.empty();
 }
 
+bool is_any_of(const TableStore::Excluded& excluded, bool ends_at_limit,
+               const automaton::Maneuver& maneuver) {
+  return (excluded.at_limit && ends_at_limit) ||
+         (excluded.turning_in_place && turns_in_place(maneuver));
+}
+
 }  // namespace
 
 TableStore::TableStore(const automaton::Subgraph& subgraph,
@@ -234,8 +240,7 @@ void TableStore::list_permitted(const automaton::Subgraph& subgraph, const EdgeC
           if (maneuvers_[edge] == nullptr) continue;
           const TrimId to{edges_[edge].to};
           if (subgraph.distance_to_standstill(to) > left) continue;
-          if (excluded.at_limit && is_at_limit[to.index]) continue;
-          if (excluded.turning_in_place && turns_in_place(*maneuvers_[edge])) continue;
+          if (is_any_of(excluded, is_at_limit[to.index], *maneuvers_[edge])) continue;
           penalty[left * edges_.size() + edge] = edges_[edge].cost + costs.to_go(to, left);
           ++permitted[left * num_trims_ + trim];
         }
