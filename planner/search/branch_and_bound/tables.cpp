@@ -234,16 +234,12 @@ void TableStore::list_permitted(const automaton::Subgraph& subgraph, const EdgeC
     penalty.assign(rows * edges_.size(), kForbidden);
     permitted.assign(rows * num_trims_, 0);
     for (std::size_t left = 0; left < rows; ++left) {
-      for (std::size_t trim = 0; trim < num_trims_; ++trim) {
-        for (std::size_t edge = kLanes * first_group_[trim]; edge < kLanes * first_group_[trim + 1];
-             ++edge) {
-          if (maneuvers_[edge] == nullptr) continue;
-          const TrimId to{edges_[edge].to};
-          if (subgraph.distance_to_standstill(to) > left) continue;
-          if (is_any_of(excluded, is_at_limit[to.index], *maneuvers_[edge])) continue;
-          penalty[left * edges_.size() + edge] = edges_[edge].cost + costs.to_go(to, left);
-          ++permitted[left * num_trims_ + trim];
-        }
+      for (std::size_t edge = 0; edge < edges_.size(); ++edge) {
+        const automaton::Maneuver* const maneuver = maneuvers_[edge];
+        if (maneuver == nullptr || subgraph.distance_to_standstill(maneuver->to) > left) continue;
+        if (is_any_of(excluded, is_at_limit[maneuver->to.index], *maneuver)) continue;
+        penalty[left * edges_.size() + edge] = edges_[edge].cost + costs.to_go(maneuver->to, left);
+        ++permitted[left * num_trims_ + maneuver->from.index];
       }
     }
   }
