@@ -75,7 +75,7 @@ void Controller::keep_in_lane_where_held_up(const search::HorizonProblem& proble
   const std::optional<double> held_up_m =
       held_up_at_m(*step_.candidate.plan, step_.next(), problem, tracker_, reach_m());
   if (!held_up_m) return;
-  search::HorizonProblem within = held_up(problem, posed_alone(*held_up_m));
+  search::HorizonProblem within = with_reference_of(problem, posed_alone(*held_up_m));
   within.incumbent =
       options_.strategies.incumbent(*step_.candidate.plan, step_.next(), options_.horizon_steps);
   PlanCandidate first = step_.candidate;

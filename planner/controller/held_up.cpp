@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "planner/common/demand.hpp"
 
@@ -19,13 +18,6 @@ std::optional<double> held_up_at_m(const coordination::Plan& plan, StepIndex nex
   const double end_s_m = counted_on_m(plan.pose_at(std::max(plan.end(), next)).position_m());
   if (counted_on_m(problem.reference_m.back()) - end_s_m < kHeldUp_m) return std::nullopt;
   return end_s_m;
-}
-
-search::HorizonProblem held_up(search::HorizonProblem problem,
-                               const search::HorizonProblem& up_to_end) {
-  search::HorizonProblem result = with_reference_of(std::move(problem), up_to_end);
-  for (Point& across : result.contouring) across *= std::sqrt(kHeldUpContouring);
-  return result;
 }
 
 search::HorizonProblem with_reference_of(search::HorizonProblem problem,

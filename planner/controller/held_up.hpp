@@ -11,11 +11,6 @@ namespace hlc::controller {
 /// A plan that ends this much before its reference does is held up.
 inline constexpr double kHeldUp_m = 0.1;
 
-/// The contouring weight (HorizonProblem) of a vehicle that is held up is this many times that of
-/// one with free road: it waits in its lane, while the other may cut a bend a little and is faster
-/// so.
-inline constexpr double kHeldUpContouring = 5.0;
-
 /// Arc length of the place on the path where the plan ends, counted on from the tracker's, if the
 /// plan is held up: it ends at least kHeldUp_m before the last reference point.
 ///
@@ -31,12 +26,6 @@ inline constexpr double kHeldUpContouring = 5.0;
 [[nodiscard]] std::optional<double> held_up_at_m(const coordination::Plan& plan, StepIndex next,
                                                  const search::HorizonProblem& problem,
                                                  const RouteTracker& tracker, double reach_m);
-
-/// `problem` for a vehicle that is held up: with the reference of `up_to_end`, which ends where the
-/// vehicle can get to, and kHeldUpContouring times its contouring weight.
-/// @pre both have the same horizon
-[[nodiscard]] search::HorizonProblem held_up(search::HorizonProblem problem,
-                                             const search::HorizonProblem& up_to_end);
 
 /// The problem with the reference points, speeds and contouring directions of the other one.
 /// @pre both have the same horizon

@@ -154,24 +154,5 @@ TEST_F(HeldUpAt, IsWhereThePlanEndsCountedOnOverTheEndOfTheRoute) {
   EXPECT_NEAR(at_m(length_m - 0.1, 0.5).value(), length_m - 0.1, 1e-3);
 }
 
-TEST(HeldUpProblem, EndsWhereTheVehicleGetsToAndCountsErrorsAcrossMore) {
-  search::HorizonProblem problem;
-  problem.start = {1.0, 2.0, 0.5};
-  problem.reference_m = {{1.5, 2.0}, {2.0, 2.0}};
-  problem.contouring = {{0.0, 3.0}, {0.0, 3.0}};
-  search::HorizonProblem up_to_end;
-  up_to_end.reference_m = {{1.2, 2.0}, {1.3, 2.1}};
-  up_to_end.contouring = {{0.0, 3.0}, {-1.8, 2.4}};
-  const search::HorizonProblem posed = held_up(problem, up_to_end);
-  EXPECT_EQ(posed.start, problem.start);
-  EXPECT_EQ(posed.reference_m, up_to_end.reference_m);
-  const auto across_m2 = [](const search::HorizonProblem& of, std::size_t j) {
-    return of.position_cost_m2(j, of.reference_m[j] + Point(0.01, 0.0)) - 1e-4;
-  };
-  EXPECT_NEAR(across_m2(posed, 1), kHeldUpContouring * across_m2(up_to_end, 1), 1e-12);
-  up_to_end.contouring.clear();
-  EXPECT_TRUE(held_up(problem, up_to_end).contouring.empty());
-}
-
 }  // namespace
 }  // namespace hlc::controller::held_up_test
