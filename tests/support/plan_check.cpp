@@ -65,8 +65,8 @@ double position_cost_m2(const search::HorizonProblem& problem, std::size_t step,
 
 namespace {
 
-std::string fault_of(const automaton::Maneuver& maneuver, const Pose& from, std::size_t step,
-                     const search::HorizonProblem& problem) {
+std::string error_of_step(const automaton::Maneuver& maneuver, const Pose& from, std::size_t step,
+                          const search::HorizonProblem& problem) {
   const bool may_turn = step == 1 && problem.may_turn_in_place;
   if (search::turns_in_place(maneuver) && !may_turn) return "wheels turned in place";
   return is_free(maneuver, from, step, problem) ? "" : "collision";
@@ -92,8 +92,8 @@ std::string validate(const search::SearchResult& result, const automaton::Subgra
     const std::string at = " in step " + std::to_string(step);
     const automaton::Maneuver* maneuver = result.maneuvers[step - 1];
     if (!is_switched_on(maneuver, trim, subgraph)) return "edge is not switched on" + at;
-    if (const std::string fault = fault_of(*maneuver, pose, step, problem); !fault.empty()) {
-      return fault + at;
+    if (const std::string error = error_of_step(*maneuver, pose, step, problem); !error.empty()) {
+      return error + at;
     }
     pose = compose(pose, maneuver->displacement);
     trim = maneuver->to;

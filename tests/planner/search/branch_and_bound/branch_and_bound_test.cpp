@@ -228,11 +228,14 @@ TEST(BranchAndBound, AgreesWithBestFirstOnAGridOfThirtyFourTrims) {
   EXPECT_GE(compare_horizons(grid, {6, 8, 10}, test::num_costly_seeds(30)), 8U / test::kThinning);
 }
 
-// Who stands with straight wheels has to turn them before it can drive.
+// A vehicle drives to the side only to which its wheels are turned, and brakes with them so.
 TEST(BranchAndBound, TurnsTheWheelsOfAStandingVehicleInTheFirstStepOnly) {
   automaton::SubgraphSpec spec{.name = "turning", .labels = {kSlow.label}, .trims = {}};
   for (std::size_t i = 0; i < 5; ++i) spec.trims.push_back({i});
-  spec.disabled_edges = {{.edge = {{0}, {2}}, .label = {}}, {.edge = {{0}, {4}}, .label = {}}};
+  for (const TrimPair& edge : std::initializer_list<TrimPair>{
+           {{0}, {2}}, {{0}, {4}}, {{2}, {3}}, {{4}, {1}}, {{1}, {4}}, {{3}, {2}}}) {
+    spec.disabled_edges.push_back({.edge = edge, .label = {}});
+  }
   Engines engines({test::make_test_automaton(
                        {{0.0, 0.0}, {0.0, 0.3}, {0.4, 0.3}, {0.0, -0.3}, {0.4, -0.3}}, {kSlow}),
                    spec});
@@ -241,7 +244,7 @@ TEST(BranchAndBound, TurnsTheWheelsOfAStandingVehicleInTheFirstStepOnly) {
   for (std::uint64_t seed = 0; seed < problems; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
-    HorizonProblem problem = test::random_problem(engines.subgraph, 4, random);
+    HorizonProblem problem = test::random_problem(engines.subgraph, 6, random);
     problem.may_turn_in_place = seed % 4 != 0;
     const auto truth = test::exhaustive_search(engines.subgraph, problem);
     const SearchResult result = engines.fast.search(problem, never_stop);
