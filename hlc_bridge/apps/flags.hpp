@@ -120,8 +120,8 @@ inline std::optional<int> parse_lab_flags(CommandLine& app, const NetworkFlags& 
   const std::vector<std::string> unknown = app.remaining();
   if (unknown.empty()) return std::nullopt;
   if (network.transport == "lab") {
-    spdlog::warn("{}: unknown flags ignored: {}", app.get_name(),
-                 one_line(fmt::format("{}", fmt::join(unknown, " ")), 200));
+    spdlog::warn(fmt::format("{}: unknown flags ignored: {}", app.get_name(),
+                             one_line(fmt::format("{}", fmt::join(unknown, " ")), 200)));
     return std::nullopt;
   }
   return refuse_unknown(app, CLI::ExtrasError(unknown));

@@ -1,5 +1,6 @@
 // The high-level controller of one vehicle. Started by the lab control centre with the lab's flags,
 // or by launch_scripts/vehicle.sh.
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -109,8 +110,8 @@ hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::Vehicle
     options.node_id += fmt::format("_{}", id.value);
   }
   if (!flags.dds_initial_peer.empty()) {
-    spdlog::warn("{}: --dds_initial_peer = {} is ignored, as by the lab's own programs",
-                 options.node_id, flags.dds_initial_peer);
+    spdlog::warn(fmt::format("{}: --dds_initial_peer = {} is ignored, as by the lab's own programs",
+                             options.node_id, flags.dds_initial_peer));
   }
   options.transport = hlc::dds::transport_from_name(network.transport);
   options.domains = {.lab = network.dds_domain,
@@ -119,7 +120,7 @@ hlc::process::HlcProcessOptions process_options(const Flags& flags, hlc::Vehicle
                                        ? *flags.controller_domain
                                        : hlc::dds::default_controller_domain(network.dds_domain)};
   for (const std::string& warning : hlc::dds::check_domains(options.domains, options.transport)) {
-    spdlog::warn("{}: {}", options.node_id, warning);
+    spdlog::warn(fmt::format("{}: {}", options.node_id, warning));
   }
   options.discovery_server = network.discovery_server();
   options.security = network.security;
@@ -147,7 +148,7 @@ std::shared_ptr<hlc::process::HlcProcess> make_process(const Flags& flags,
   options.on_published =
       recording.open(flags.network.messages, flags.network.simulated_time, options.node_id);
   if (!flags.is_scenario_given) {
-    spdlog::info("{}: scenario {}", options.node_id, flags.scenario.file.string());
+    spdlog::info(fmt::format("{}: scenario {}", options.node_id, flags.scenario.file.string()));
   }
   options.configuration = [file = scenario.automaton_file] {
     return hlc::maneuver_design::read_configuration_of(file);

@@ -107,7 +107,7 @@ hlc::process::LabControlOptions process_options(const Flags& flags) {
   const hlc::dds::Domains domains{
       .lab = options.lab_domain, .local = std::nullopt, .controller = options.controller_domain};
   for (const std::string& warning : hlc::dds::check_domains(domains, options.transport)) {
-    spdlog::warn("{}", warning);
+    spdlog::warn(warning);
   }
   options.discovery_server = flags.network.discovery_server();
   options.security = flags.network.security;

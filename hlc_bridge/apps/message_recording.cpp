@@ -1,5 +1,6 @@
 #include "hlc_bridge/apps/message_recording.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <optional>
@@ -27,12 +28,14 @@ MessageRecording::OnPublished MessageRecording::open(const std::filesystem::path
                                                      const std::string& process,
                                                      Nanoseconds period) {
   if (folder.empty()) return {};
-  recorder_ = std::make_shared<mcap::MessageRecorder>(mcap::MessageRecorder::Options{
-      .folder = folder,
-      .process = process,
-      .definition_of = dds::type_definition,
-      .wall_time = time::real_time_now,
-      .on_failure = [process](const std::string& line) { spdlog::warn("{}: {}", process, line); }});
+  recorder_ = std::make_shared<mcap::MessageRecorder>(
+      mcap::MessageRecorder::Options{.folder = folder,
+                                     .process = process,
+                                     .definition_of = dds::type_definition,
+                                     .wall_time = time::real_time_now,
+                                     .on_failure = [process](const std::string& line) {
+                                       spdlog::warn(fmt::format("{}: {}", process, line));
+                                     }});
   // In real time the clock's time is the run's.
   return [recorder = recorder_, period, simulated_time](const dds::PublishedMessage& message) {
     recorder->record(
@@ -45,7 +48,7 @@ MessageRecording::OnPublished MessageRecording::open(const std::filesystem::path
 
 int MessageRecording::close(int exit_code) const {
   const bool is_complete = !recorder_ || recorder_->close();
-  if (!is_complete) spdlog::warn("{}: incomplete", recorder_->file().string());
+  if (!is_complete) spdlog::warn(fmt::format("{}: incomplete", recorder_->file().string()));
   return exit_code_with_outputs(exit_code, is_complete);
 }
 

@@ -69,7 +69,7 @@ hlc::process::MiddlewareOptions process_options(const Flags& flags) {
   const hlc::dds::Domains domains{
       .lab = options.lab_domain, .local = options.local_domain, .controller = std::nullopt};
   for (const std::string& warning : hlc::dds::check_domains(domains, options.transport)) {
-    spdlog::warn("{}: {}", options.node_id, warning);
+    spdlog::warn(fmt::format("{}: {}", options.node_id, warning));
   }
   options.discovery_server = flags.network.discovery_server();
   options.security = flags.network.security;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -33,7 +34,7 @@ int run_program(const std::string& name, time::StopSignals& signals, Make make, 
   try {
     process = make();
   } catch (const std::exception& error) {
-    spdlog::error("{}: {}", name, error.what());
+    spdlog::error(fmt::format("{}: {}", name, error.what()));
     return kExitBadInput;
   }
   // Shared with the signals' thread, which outlives this function.
@@ -42,7 +43,7 @@ int run_program(const std::string& name, time::StopSignals& signals, Make make, 
   try {
     exit_code = process->run();
   } catch (const std::exception& error) {
-    spdlog::error("{}: failed during the run: {}", name, error.what());
+    spdlog::error(fmt::format("{}: failed during the run: {}", name, error.what()));
   }
   time::end_within(kFinishTime, exit_code_with_outputs(exit_code, false));
   exit_code = finish(exit_code);

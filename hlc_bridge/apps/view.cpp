@@ -1,4 +1,5 @@
 // Shows a run under way in browsers.
+#include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 
 #include <algorithm>
@@ -121,7 +122,7 @@ hlc::live::ListenerOptions listener_options(const Flags& flags, const hlc::view:
   const hlc::dds::Domains domains{
       .lab = options.lab_domain, .local = {}, .controller = options.controller_domain};
   for (const std::string& warning : hlc::dds::check_domains(domains, options.transport)) {
-    spdlog::warn("{}", warning);
+    spdlog::warn(warning);
   }
   options.lease = hlc::machine::run_time(network.simulated_time).lease;
   options.discovery_server = network.discovery_server();
@@ -148,8 +149,8 @@ class View {
         scene_(run),
         messages_(std::move(run)) {
     if (server_.is_open_to_others()) {
-      spdlog::warn("--listen = {}: the run is shown to whoever reaches this address",
-                   flags.server.address);
+      spdlog::warn(fmt::format("--listen = {}: the run is shown to whoever reaches this address",
+                               flags.server.address));
     }
     std::cout << "view: " << server_.url() << std::endl;
   }
@@ -171,8 +172,9 @@ class View {
     ticks_after_run_ = listener_.run_is_over() ? ticks_after_run_ + 1 : 0;
     if (stop_ || ticks_after_run_ > kLastTicks) return end("The run has ended.");
     if (history_.num_bytes() > kMostHistoryBytes) {
-      spdlog::warn("the run is longer than the {} MB kept for browsers: they get no more of it",
-                   kMostHistoryBytes / 1'000'000);
+      spdlog::warn(
+          fmt::format("the run is longer than the {} MB kept for browsers: they get no more of it",
+                      kMostHistoryBytes / 1'000'000));
       return end("The run goes on, but this view is full.");
     }
     if (const std::string portion = messages_.portion(); !portion.empty()) {

@@ -16,7 +16,7 @@
 namespace hlc::dds {
 namespace {
 
-[[noreturn]] void refuse(const ParticipantOptions& options, const std::string& what) {
+[[noreturn]] void refuse_participant(const ParticipantOptions& options, const std::string& what) {
   throw std::runtime_error(
       fmt::format("participant {} on domain {}: {}", options.name, options.domain_id, what));
 }
@@ -33,8 +33,9 @@ void check_free_descriptors(const ParticipantOptions& options) {
     if (::fcntl(file, F_GETFD) < 0) ++num_free;
   }
   if (num_free == kNeeded) return;
-  refuse(options, fmt::format("free file descriptors must be >= {}, got {} (ulimit -n {})", kNeeded,
-                              num_free, limit.rlim_cur));
+  refuse_participant(
+      options, fmt::format("free file descriptors must be >= {}, got {} (ulimit -n {})", kNeeded,
+                           num_free, limit.rlim_cur));
 }
 
 }  // namespace
@@ -60,7 +61,8 @@ ParticipantCore::ParticipantCore(const ParticipantOptions& options,
       static_cast<fdds::DomainId_t>(options_.domain_id), qos, as_listener(),
       fdds::StatusMask::none());
   if (participant_ == nullptr) {
-    refuse(options_, "the library could not create it (too many participants on this host?)");
+    refuse_participant(options_,
+                       "the library could not create it (too many participants on this host?)");
   }
   if (is_secure()) check_own_identity();
   publisher_ = participant_->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
@@ -80,12 +82,12 @@ fdds::Topic& ParticipantCore::topic(const std::string& name, const fdds::TypeSup
   if (topic == nullptr) {
     if (participant_->find_type(type.get_type_name()).empty() &&
         !is_ok(type.register_type(participant_))) {
-      refuse(options_, "type " + type.get_type_name() + " could not be registered");
+      refuse_participant(options_, "type " + type.get_type_name() + " could not be registered");
     }
     topic = participant_->create_topic(name, type.get_type_name(), fdds::TOPIC_QOS_DEFAULT);
   }
   if (topic == nullptr) {
-    refuse(options_, "topic " + name + " could not be created");
+    refuse_participant(options_, "topic " + name + " could not be created");
   }
   return *topic;
 }
@@ -94,7 +96,7 @@ void ParticipantCore::check_own_identity() const {
   const auto key = key_of_identity(identity_of(options_.name));
   const frtps::GuidPrefix_t prefix = participant_->guid().guidPrefix;
   if (key && std::equal(key->begin(), key->end(), std::begin(prefix.value))) return;
-  refuse(options_, "--security: the library is built without DDS security");
+  refuse_participant(options_, "--security: the library is built without DDS security");
 }
 
 bool ParticipantCore::is_own(const frtps::GUID_t& endpoint) const {

@@ -23,22 +23,22 @@ using Owned = std::unique_ptr<Object, void (*)(Object*)>;
 
 void free_bio(BIO* bio) { BIO_free(bio); }
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+[[noreturn]] void refuse_file(const fs::path& file, const std::string& what) {
   throw std::invalid_argument(fmt::format("--security: {}: {}", file.string(), what));
 }
 
 Owned<BIO> open(const fs::path& file) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) refuse(file, "no such file");
+  if (!fs::is_regular_file(file, error)) refuse_file(file, "no such file");
   Owned<BIO> bio(BIO_new_file(file.c_str(), "r"), free_bio);
-  if (!bio) refuse(file, "cannot be read");
+  if (!bio) refuse_file(file, "cannot be read");
   return bio;
 }
 
 Owned<X509> read_certificate(const fs::path& file) {
   const Owned<BIO> bio = open(file);
   Owned<X509> certificate(PEM_read_bio_X509(bio.get(), nullptr, nullptr, nullptr), X509_free);
-  if (!certificate) refuse(file, "must be a certificate (PEM)");
+  if (!certificate) refuse_file(file, "must be a certificate (PEM)");
   return certificate;
 }
 
@@ -65,27 +65,28 @@ void check_certificate(X509_STORE* store, X509* certificate, const fs::path& fil
   const Owned<X509_STORE_CTX> context(X509_STORE_CTX_new(), X509_STORE_CTX_free);
   X509_STORE_CTX_init(context.get(), store, certificate, nullptr);
   if (X509_verify_cert(context.get()) == 1) return;
-  refuse(file, fmt::format("{}; must be valid now and signed by the authority.pem beside it",
-                           X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get()))));
+  refuse_file(file,
+              fmt::format("{}; must be valid now and signed by the authority.pem beside it",
+                          X509_verify_cert_error_string(X509_STORE_CTX_get_error(context.get()))));
 }
 
 void check_subject(X509* certificate, const std::string& identity, const fs::path& file) {
   const Owned<X509_NAME> subject = subject_of(identity);
   if (subject && X509_NAME_cmp(X509_get_subject_name(certificate), subject.get()) == 0) return;
-  refuse(file, "the subject must be CN=" + identity);
+  refuse_file(file, "the subject must be CN=" + identity);
 }
 
 void check_key(X509* certificate, const fs::path& file) {
   const Owned<BIO> bio = open(file);
   const auto others = fs::perms::group_all | fs::perms::others_all;
   if ((fs::status(file).permissions() & others) != fs::perms::none) {
-    refuse(file, "others than its owner may read it, must be of mode 0600");
+    refuse_file(file, "others than its owner may read it, must be of mode 0600");
   }
   const Owned<EVP_PKEY> key(PEM_read_bio_PrivateKey(bio.get(), nullptr, nullptr, nullptr),
                             EVP_PKEY_free);
-  if (!key) refuse(file, "must be a private key (PEM)");
+  if (!key) refuse_file(file, "must be a private key (PEM)");
   if (X509_check_private_key(certificate, key.get()) != 1) {
-    refuse(file, "must be the key of the certificate.pem beside it");
+    refuse_file(file, "must be the key of the certificate.pem beside it");
   }
 }
 
@@ -96,7 +97,7 @@ void check_signature(X509_STORE* store, const fs::path& file) {
   const Owned<BIO> signed_text(content, free_bio);
   if (!signature || !signed_text ||
       PKCS7_verify(signature.get(), nullptr, store, signed_text.get(), nullptr, PKCS7_TEXT) != 1) {
-    refuse(file, "must be signed by the authority.pem of the folder, and unchanged since");
+    refuse_file(file, "must be signed by the authority.pem of the folder, and unchanged since");
   }
 }
 

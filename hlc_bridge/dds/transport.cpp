@@ -23,15 +23,15 @@ bool is_guid_prefix(const std::string& text) {
 }
 
 /// @param what  value and bound
-[[noreturn]] void refuse(const std::string& flag, const std::string& what) {
+[[noreturn]] void refuse_flag(const std::string& flag, const std::string& what) {
   throw std::invalid_argument(flag + ": " + what);
 }
 
 void refuse_equal(const char* first_flag, const std::optional<int>& first, const char* second_flag,
                   const std::optional<int>& second) {
   if (first && second && *first == *second) {
-    refuse(second_flag,
-           fmt::format("{}, must be different from {} {}", *second, first_flag, *first));
+    refuse_flag(second_flag,
+                fmt::format("{}, must be different from {} {}", *second, first_flag, *first));
   }
 }
 
@@ -40,12 +40,12 @@ void refuse_equal(const char* first_flag, const std::optional<int>& first, const
 Transport transport_from_name(const std::string& name) {
   if (name == "loopback") return Transport::kLoopback;
   if (name == "lab") return Transport::kLab;
-  refuse("--transport", fmt::format("\"{}\", must be lab or loopback", name));
+  refuse_flag("--transport", fmt::format("\"{}\", must be lab or loopback", name));
 }
 
 void check_domain_id(const std::string& flag, int id) {
   if (id < kMinDomainId || id > kMaxDomainId) {
-    refuse(flag, fmt::format("{}, must be in {} ... {}", id, kMinDomainId, kMaxDomainId));
+    refuse_flag(flag, fmt::format("{}, must be in {} ... {}", id, kMinDomainId, kMaxDomainId));
   }
 }
 
@@ -75,8 +75,9 @@ int default_controller_domain(int lab_domain) {
   check_domain_id("--dds_domain", lab_domain);
   const int domain = lab_domain + 50;
   if (domain > 100) {
-    refuse("--controller_domain",
-           fmt::format("the default --dds_domain + 50 = {}, must be <= 100, or given", domain));
+    refuse_flag(
+        "--controller_domain",
+        fmt::format("the default --dds_domain + 50 = {}, must be <= 100, or given", domain));
   }
   return domain;
 }
@@ -85,7 +86,7 @@ void check_addresses(const std::string& flag, const std::vector<std::string>& ad
   for (const std::string& address : addresses) {
     in_addr parsed{};
     if (inet_pton(AF_INET, address.c_str(), &parsed) != 1) {
-      refuse(flag, fmt::format("\"{}\", must be an IPv4 address", address));
+      refuse_flag(flag, fmt::format("\"{}\", must be an IPv4 address", address));
     }
   }
 }
@@ -96,13 +97,13 @@ std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
                                                     const std::string& server_port) {
   if (mode != "client") {
     if (mode.empty() && !(server_id + server_ip + server_port).empty()) {
-      refuse("--discovery_mode",
-             fmt::format("\"{}\", must be client with a discovery server", mode));
+      refuse_flag("--discovery_mode",
+                  fmt::format("\"{}\", must be client with a discovery server", mode));
     }
     return std::nullopt;
   }
   if (!is_guid_prefix(server_id)) {
-    refuse(
+    refuse_flag(
         "--discovery_server_id",
         fmt::format("\"{}\", must be 12 bytes in hexadecimal with dots between them", server_id));
   }
@@ -111,7 +112,8 @@ std::optional<DiscoveryServer> discovery_from_flags(const std::string& mode,
   const char* const end = server_port.data() + server_port.size();
   const auto [parsed_end, error] = std::from_chars(server_port.data(), end, server.port);
   if (error != std::errc{} || parsed_end != end || server.port == 0) {
-    refuse("--discovery_server_port", fmt::format("\"{}\", must be in 1 ... 65535", server_port));
+    refuse_flag("--discovery_server_port",
+                fmt::format("\"{}\", must be in 1 ... 65535", server_port));
   }
   return server;
 }

@@ -1,5 +1,6 @@
 #include "hlc_bridge/process/hlc_process.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -84,12 +85,13 @@ void HlcProcess::prepare_thread() const {
   time::make_code_resident();
   time::reserve_heap(kHeapReserve);
   if (options_.thread_priority > 0 && !time::take_precedence(options_.thread_priority)) {
-    spdlog::info("{}: no real-time priority (ulimit -r): planning may be preempted",
-                 options_.node_id);
+    spdlog::info(fmt::format("{}: no real-time priority (ulimit -r): planning may be preempted",
+                             options_.node_id));
   }
   if (options_.core && !time::stay_on_core(*options_.core)) {
-    spdlog::warn("{}: --core = {}: no such core for this process, must be in 0 ... {}",
-                 options_.node_id, *options_.core, std::thread::hardware_concurrency() - 1);
+    spdlog::warn(fmt::format("{}: --core = {}: no such core for this process, must be in 0 ... {}",
+                             options_.node_id, *options_.core,
+                             std::thread::hardware_concurrency() - 1));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "hlc_bridge/process/log.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace hlc::process {
@@ -20,8 +21,9 @@ spdlog::level::level_enum level_of(machine::Severity severity) {
 }  // namespace
 
 void log(const std::string& process, const machine::LogLine& line) {
-  const std::string prefix = process.empty() ? "" : process + ": ";
-  spdlog::log(level_of(line.severity), "{}{}", prefix, line.text);
+  // Of text that spdlog itself formats every file would compile how fmt writes numbers.
+  spdlog::log(level_of(line.severity),
+              process.empty() ? line.text : fmt::format("{}: {}", process, line.text));
 }
 
 }  // namespace hlc::process

@@ -1,5 +1,6 @@
 #include "hlc_bridge/process/middleware_process.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -24,19 +25,20 @@ middleware::MiddlewareSettings settings_of(const MiddlewareOptions& options) {
 dds::ParticipantOptions on_domain(const MiddlewareOptions& options, dds::DomainRole role,
                                   Shell<middleware::MiddlewareMachine>& shell) {
   const bool lab = role == dds::DomainRole::kLab;
-  return {.name = middleware_name(options.vehicle_ids),
-          .domain_id = lab ? options.lab_domain : options.local_domain,
-          .role = role,
-          .transport = options.transport,
-          .lease = options.time.lease,
-          .discovery_server = lab ? options.discovery_server : std::nullopt,
-          .version = options.version,
-          .security = options.security,
-          .on_loss =
-              [id = options.node_id](const std::string& line) { spdlog::warn("{}: {}", id, line); },
-          .admits = [&shell](const auto& publisher,
-                             std::size_t bytes) { return shell.admits(publisher, bytes); },
-          .on_published = options.on_published};
+  return {
+      .name = middleware_name(options.vehicle_ids),
+      .domain_id = lab ? options.lab_domain : options.local_domain,
+      .role = role,
+      .transport = options.transport,
+      .lease = options.time.lease,
+      .discovery_server = lab ? options.discovery_server : std::nullopt,
+      .version = options.version,
+      .security = options.security,
+      .on_loss = [id = options.node_id](
+                     const std::string& line) { spdlog::warn(fmt::format("{}: {}", id, line)); },
+      .admits = [&shell](const auto& publisher,
+                         std::size_t bytes) { return shell.admits(publisher, bytes); },
+      .on_published = options.on_published};
 }
 
 }  // namespace

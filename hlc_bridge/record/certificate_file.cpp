@@ -14,7 +14,7 @@ constexpr std::string_view kCertificateHeading =
 
 void add_number(double value, std::string& text) {
   if (!text.empty() && text.back() != ',' && text.back() != ';' && text.back() != ':') text += ' ';
-  fmt::format_to(std::back_inserter(text), "{}", value);
+  text += fmt::format("{}", value);
 }
 
 void add_area(const ConvexPolygon& area, std::string& text) {
@@ -25,8 +25,7 @@ void add_area(const ConvexPolygon& area, std::string& text) {
 }
 
 void add_separation(const coordination::Separation& separation, std::string& text) {
-  fmt::format_to(std::back_inserter(text), "{}:{}:", separation.from.value,
-                 coordination::to_string(separation.known));
+  text += fmt::format("{}:{}:", separation.from.value, coordination::to_string(separation.known));
   for (const auto& [direction_rad, offset_m] : separation.lines) {
     add_number(direction_rad, text);
     add_number(offset_m, text);

@@ -11,7 +11,7 @@
 namespace hlc::record {
 namespace {
 
-constexpr std::string_view kHeading = "step,vehicle,text";
+constexpr std::string_view kExplanationHeading = "step,vehicle,text";
 enum Column : std::size_t { kStep, kVehicle, kText };
 
 }  // namespace
@@ -21,7 +21,7 @@ std::filesystem::path explanations_file(const std::filesystem::path& run) {
 }
 
 std::string explanations_csv(std::span<const result::Explanation> explanations) {
-  std::string csv = std::string{kHeading} + "\n";
+  std::string csv = std::string{kExplanationHeading} + "\n";
   for (const result::Explanation& one : explanations) {
     csv += CsvLine(one.step, one.vehicle.value, one.text).text();
   }
@@ -31,7 +31,7 @@ std::string explanations_csv(std::span<const result::Explanation> explanations) 
 std::vector<result::Explanation> read_explanations(const std::filesystem::path& run,
                                                    std::span<const result::StepRecord> rows) {
   if (!std::filesystem::exists(explanations_file(run))) return {};
-  const CsvTable table(explanations_file(run), kHeading);
+  const CsvTable table(explanations_file(run), kExplanationHeading);
   const std::vector<result::Explanation> expected = result::steps_to_explain(rows);
   std::vector<result::Explanation> explanations;
   for (std::size_t row = 0; row < table.size(); ++row) {

@@ -18,7 +18,7 @@
 namespace hlc::record {
 namespace {
 
-constexpr std::string_view kHeading =
+constexpr std::string_view kReportHeading =
     "step,id,status,reason,planned_x_m,planned_y_m,planned_heading_rad,planned_trim,cost_m2,"
     "quality,gap_m2,generated,expanded,level,coupled,missing,deviation_m,planning_ns,deadline_"
     "missed,late_ns,maneuver,subgraph,waits_for,waits_since,response_ns,blocked_by,plan,"
@@ -235,7 +235,7 @@ std::string ids_to_text(const std::vector<VehicleId>& ids) {
 
 ReportFile::ReportFile(std::filesystem::path file, GrowingFile::OnFailure on_failure)
     : file_{std::move(file), GrowingFile::Opening::kEmptied, std::move(on_failure)} {
-  file_.begin(std::string{kHeading} + '\n');
+  file_.begin(std::string{kReportHeading} + '\n');
 }
 
 void ReportFile::append(const ReportRecord& record) {
@@ -254,7 +254,7 @@ std::optional<std::string> ReportFile::finish() {
   std::ranges::stable_sort(lines_, {}, [](const Line& one) {
     return std::tuple{one.step, one.vehicle};
   });
-  std::string text = std::string{kHeading} + "\n";
+  std::string text = std::string{kReportHeading} + "\n";
   text.reserve(text.size() + bytes_);
   for (const Line& one : lines_) text += one.text;
   file_.replace(text);
@@ -262,7 +262,7 @@ std::optional<std::string> ReportFile::finish() {
 }
 
 std::vector<ReportRecord> read_reports(const std::filesystem::path& file) {
-  const CsvTable table{file, kHeading};
+  const CsvTable table{file, kReportHeading};
   std::vector<ReportRecord> records;
   records.reserve(table.size());
   for (std::size_t row = 0; row < table.size(); ++row) {

@@ -8,7 +8,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMillimetresPerMetre = 1e3;
 constexpr double kMillisecondsPerSecond = 1e3;
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -47,12 +46,12 @@ Json vehicle_json(const result::VehicleSummary& vehicle) {
   json["id"] = vehicle.id.value;
   json["name"] = vehicle.name;
   json["lap_s"] = or_null(vehicle.lap_s);
-  json["reference_error_mm"] = figures(vehicle.reference_error_m, kMillimetresPerMetre,
+  json["reference_error_mm"] = figures(vehicle.reference_error_m, result::kMillimetresPerMetre,
                                        {{"mean", &result::Statistics::mean},
                                         {"std", &result::Statistics::std},
                                         {"max", &result::Statistics::max}});
   json["tracking_error_mm"] =
-      figures(vehicle.tracking_error_m, kMillimetresPerMetre,
+      figures(vehicle.tracking_error_m, result::kMillimetresPerMetre,
               {{"mean", &result::Statistics::mean}, {"max", &result::Statistics::max}});
   json["generated_vertices"] =
       figures(vehicle.generated, 1.0,
@@ -70,7 +69,7 @@ Json vehicle_json(const result::VehicleSummary& vehicle) {
   json["budget_share"] = or_null(vehicle.budget_share);
   json["plans_exceeding_step"] = vehicle.plans_exceeding_step;
   json["undrivable_steps"] = vehicle.undrivable_steps;
-  json["driven_error_mm"] = figures(vehicle.driven_error_m, kMillimetresPerMetre,
+  json["driven_error_mm"] = figures(vehicle.driven_error_m, result::kMillimetresPerMetre,
                                     {{"mean", &result::Statistics::mean},
                                      {"std", &result::Statistics::std},
                                      {"max", &result::Statistics::max}});

@@ -13,7 +13,6 @@
 namespace hlc::result {
 namespace {
 
-constexpr double kMillimetresPerMetre = 1e3;
 constexpr std::size_t kHashDigits = 16;
 
 using Cells = std::vector<std::string>;

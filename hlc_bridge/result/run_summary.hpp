@@ -13,6 +13,8 @@
 
 namespace hlc::result {
 
+inline constexpr double kMillimetresPerMetre = 1e3;  ///< for people; a summary's lengths are in m
+
 struct VehicleSummary {
   VehicleId id;
   std::string name;

@@ -10,7 +10,6 @@
 namespace hlc::result {
 namespace {
 
-constexpr double kMillimetresPerMetre = 1e3;
 constexpr double kMillisecondsPerSecond = 1e3;
 
 constexpr int kLapWidth = 6;

@@ -27,14 +27,14 @@ struct Rgb {
 constexpr Rgb kBound{0.5, 0.5, 0.5};
 constexpr Rgb kObstacle{0.2, 0.2, 0.2};
 /// Of the vehicles, those of Okabe and Ito as in page/page.css.
-constexpr std::array<Rgb, kNumColours> kCars{{{0.835, 0.369, 0.0},
-                                              {0.0, 0.447, 0.698},
-                                              {0.0, 0.620, 0.451},
-                                              {0.800, 0.475, 0.655},
-                                              {0.902, 0.624, 0.0},
-                                              {0.337, 0.706, 0.914},
-                                              {0.702, 0.643, 0.0},
-                                              {0.439, 0.439, 0.439}}};
+constexpr std::array<Rgb, kNumColours> kCarColours{{{0.835, 0.369, 0.0},
+                                                    {0.0, 0.447, 0.698},
+                                                    {0.0, 0.620, 0.451},
+                                                    {0.800, 0.475, 0.655},
+                                                    {0.902, 0.624, 0.0},
+                                                    {0.337, 0.706, 0.914},
+                                                    {0.702, 0.643, 0.0},
+                                                    {0.439, 0.439, 0.439}}};
 
 double finite(double value) { return std::isfinite(value) ? value : 0.0; }
 
@@ -100,7 +100,7 @@ Scene::Scene(const FinishedRun& run) : run_(&run), colors_(colours_of(run)) {
 }
 
 Json Scene::color_of(const result::VehicleDescription& vehicle, double alpha) const {
-  return color_json(kCars.at(colors_.at(vehicle.id)), alpha);
+  return color_json(kCarColours.at(colors_.at(vehicle.id)), alpha);
 }
 
 Json Scene::map(Nanoseconds time) const {

@@ -3,22 +3,18 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <string_view>
 
 #include "planner/automaton/trim_id.hpp"
 
 /// Trims as users number them, from 1: "3"; edges as "3 -> 7".
 template <>
 struct fmt::formatter<hlc::TrimId> : fmt::formatter<std::size_t> {
-  template <class Context>
-  auto format(hlc::TrimId trim, Context& context) const {
-    return formatter<std::size_t>::format(trim.index + 1, context);
-  }
+  // Not a template: every file that names a trim would otherwise compile how a number is written.
+  fmt::appender format(hlc::TrimId trim, fmt::format_context& context) const;
 };
 
 template <>
-struct fmt::formatter<hlc::TrimPair> : fmt::formatter<hlc::TrimId> {
-  template <class Context>
-  auto format(const hlc::TrimPair& edge, Context& context) const {
-    return fmt::format_to(context.out(), "{} -> {}", edge.from, edge.to);
-  }
+struct fmt::formatter<hlc::TrimPair> : fmt::formatter<std::string_view> {
+  fmt::appender format(const hlc::TrimPair& edge, fmt::format_context& context) const;
 };

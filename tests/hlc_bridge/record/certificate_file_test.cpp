@@ -11,7 +11,7 @@
 namespace hlc::record {
 namespace {
 
-const auto kUnexpected = [](const std::string& line) { ADD_FAILURE() << line; };
+const auto kUnexpectedLine = [](const std::string& line) { ADD_FAILURE() << line; };
 
 ConvexPolygon triangle(double x) {
   return {{Point{x, 0.0}, Point{x + 1.0, 0.0}, Point{x, 0.1 + 0.2}}};
@@ -28,7 +28,7 @@ ReportRecord record_with(const std::shared_ptr<const coordination::Certificate>&
 TEST(CertificateFile, HasALineForEveryCertificateWithNumbersThatReadBackToTheSameBits) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "certificates.csv";
-  CertificateFile certificates(file, kUnexpected);
+  CertificateFile certificates(file, kUnexpectedLine);
   certificates.append(record_with(nullptr));
   certificates.append(record_with(std::make_shared<
                                   const coordination::Certificate>(coordination::Certificate{
@@ -50,7 +50,7 @@ TEST(CertificateFile, HasALineForEveryCertificateWithNumbersThatReadBackToTheSam
 TEST(CertificateFile, LeavesTheAreasOfAStandingVehicleAndTheLinesOfOneAloneEmpty) {
   const test::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "certificates.csv";
-  CertificateFile certificates(file, kUnexpected);
+  CertificateFile certificates(file, kUnexpectedLine);
   certificates.append(
       record_with(std::make_shared<const coordination::Certificate>(coordination::Certificate{
           .footprint = {.length_m = 1, .width_m = 2},
