@@ -60,6 +60,11 @@ if [[ $preset == fast_dds_3 ]]; then
   hlc_bridge/dds/fast_dds_3/install.sh "build/$preset" || { echo "build.sh: preset $preset needs Fast DDS 3" >&2; exit 1; }
 fi
 : >"$log"
+# The compiler's cache preprocesses a file that it does not know, to find what another clone compiled. While it is empty it
+# need not, and the first build takes a fifth less time.
+if [[ $(ccache --print-stats 2>/dev/null | awk '$1 == "files_in_cache" {print $2}') == 0 ]]; then
+  export CCACHE_DEPEND=1
+fi
 start=$SECONDS
 run cmake --preset "$preset"
 # Not a pipe: with pipefail it would fail where grep has found its line and ends before the build tool does.

@@ -90,7 +90,7 @@ Turns turns_of(const ConvexPolygon::Vertices& vertices_m) {
   return turns;
 }
 
-ConvexPolygon polygon_in_order(const Node& node) {
+ConvexPolygon read_ordered_polygon(const Node& node) {
   ConvexPolygon area_m;
   ConvexPolygon::Vertices& vertices = area_m.vertices_m;
   for (const Node& vertex : node.entries()) {
@@ -247,11 +247,11 @@ search::HorizonProblem read_problem(const Node& node, const ProblemFrame& frame)
   }
   for (const Node& entry : node.optional_list("obstacles", n, per_step)) {
     auto& areas_m = problem.obstacles_m.emplace_back();
-    for (const Node& area : entry.entries()) areas_m.push_back(polygon_in_order(area));
+    for (const Node& area : entry.entries()) areas_m.push_back(read_ordered_polygon(area));
   }
   for (const Node& entry : node.optional_list("avoided_in_motion", n, per_step)) {
     auto& areas_m = problem.avoided_in_motion_m.emplace_back();
-    for (const Node& area : entry.entries()) areas_m.push_back(polygon_in_order(area));
+    for (const Node& area : entry.entries()) areas_m.push_back(read_ordered_polygon(area));
   }
   for (const Node& entry : node.optional_list("corridor")) {
     problem.boundary_m.push_back(read_segment(entry));
