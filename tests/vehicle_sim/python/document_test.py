@@ -43,6 +43,10 @@ class DocumentTest(unittest.TestCase):
             printed = execute(blocks, "README.md")
             self.assertEqual({file.name for file in folder.glob("*.svg")}, {"first_run.svg", "own_rule.svg", "front.svg"})
         self.assertIn("(60, 3, 3)", printed)
+        shown = re.findall(r"```text\n(.*?)```", (PACKAGE / "README.md").read_text(), re.DOTALL)
+        self.assertGreater(len(shown), 1)
+        for text in shown:
+            self.assertIn(text, printed)
         self.assertIn("horizon_steps = 99, must be", printed)
 
     def test_every_notebook_runs(self):
@@ -51,4 +55,6 @@ class DocumentTest(unittest.TestCase):
         for file in files:
             with self.subTest(file=file.name), in_new_folder():
                 cells = json.loads(file.read_text())["cells"]
-                execute(["".join(one["source"]) for one in cells if one["cell_type"] == "code"], file.name)
+                printed = execute(["".join(one["source"]) for one in cells if one["cell_type"] == "code"], file.name)
+                if file.stem == "what_if":  # every fork is another run
+                    self.assertEqual(printed.count("after: 0.000 m"), 1, printed)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 from pathlib import Path
-from typing import SupportsIndex, Union
+from typing import Any, SupportsIndex, Union
 
 from hlc._core import Error
 
@@ -35,6 +36,14 @@ def find(path_or_name: PathLike, kind: str, extension: str) -> Path:
         return file
     names = ", ".join(sorted(one.stem for one in folder.glob("*" + extension)))
     raise Error(f"{kind}: {given}, must be a file, or one of {names}")
+
+
+def optional_module(name: str) -> Any:
+    """The module; raises Error where the package was installed without its extra "all"."""
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        raise Error(f'{name}: is not installed, must be for tables and figures: pip install ".[all]"') from error
 
 
 def check_whole(name: str, value: object, least: int, most: int) -> None:

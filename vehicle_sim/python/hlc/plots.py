@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Mapping, Optional, Union
 
 import numpy as np
 
+from hlc._core import Error
+from hlc.files import check_is, optional_module
 from hlc.pareto import Front
 from hlc.problems import Plan
 from hlc.runs import Run
@@ -19,22 +21,26 @@ LINES = ("-", "--", ":", "-.")
 def _axes(axes: Optional[Axes]) -> Axes:
     if axes is not None:
         return axes
-    import matplotlib.pyplot as plt
-
-    return plt.subplots()[1]
+    return optional_module("matplotlib.pyplot").subplots()[1]
 
 
 def _named(runs: Union[Run, Mapping[str, Run]]) -> dict[str, Run]:
-    return {"": runs} if isinstance(runs, Run) else dict(runs)
+    named = {"": runs} if isinstance(runs, Run) else runs
+    check_is("runs", named, Mapping, "a run, or runs by name")
+    if not named:
+        raise Error("runs: none, must be one at least")
+    for name, run in named.items():
+        check_is(f"runs: {name}", run, Run, "a run")
+    return dict(named)
 
 
 def plot_paths(runs: Union[Run, Mapping[str, Run]], axes: Optional[Axes] = None) -> Axes:
     """Paths of the vehicles over their routes; several runs by name, each with its own kind of line. A vehicle whose name
     is a colour has that one."""
-    from matplotlib.colors import is_color_like
-
+    named = _named(runs)
     axes = _axes(axes)
-    for line, (name, run) in zip(LINES * len(_named(runs)), _named(runs).items()):
+    is_color_like = optional_module("matplotlib.colors").is_color_like
+    for line, (name, run) in zip(LINES * len(named), named.items()):
         vehicles = run.scenario.vehicles
         poses = run.planned if np.isnan(run.driven).all() else run.driven
         for i, vehicle in enumerate(vehicles):
@@ -53,15 +59,18 @@ def plot_paths(runs: Union[Run, Mapping[str, Run]], axes: Optional[Axes] = None)
 
 
 def plot_ways(runs: Union[Run, Mapping[str, Run]], axes: Optional[Axes] = None) -> Axes:
-    """Planned way [m] of all vehicles together over time: steeper is faster. Several runs by name."""
+    """Planned way [m] of all vehicles together over time: steeper is faster, and what ends higher has made detours, if
+    all have arrived. Several runs by name, each with its own kind of line."""
+    named = _named(runs)
     axes = _axes(axes)
-    for name, run in _named(runs).items():
+    for line, (name, run) in zip(LINES * len(named), named.items()):
         way = np.linalg.norm(np.diff(run.planned[..., :2], axis=0), axis=2)
-        t = run.scenario.step_s * np.arange(1, len(way) + 1)
-        axes.plot(t, np.cumsum(np.nansum(way, axis=1)), label=name)
+        t = run.scenario.step_s * np.arange(len(way) + 1)
+        axes.plot(t, np.concatenate([[0.0], np.cumsum(np.nansum(way, axis=1))]), line, label=name)
+    axes.set_title("steeper is faster")
     axes.set_xlabel("t [s]")
     axes.set_ylabel("way of all vehicles [m]")
-    if len(_named(runs)) > 1:
+    if len(named) > 1:
         axes.legend()
     return axes
 

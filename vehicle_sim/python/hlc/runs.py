@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hlc import _core
-from hlc.files import PathLike, as_path, check_is, check_whole
+from hlc.files import PathLike, as_path, check_is, check_whole, optional_module
 from hlc.scenarios import MOST_STEPS, PriorityRule, Scenario, core_rule
 
 if TYPE_CHECKING:
@@ -97,16 +97,14 @@ class Run:
     def steps(self) -> pandas.DataFrame:
         """A row per step and vehicle; units are in the names. status: planned, fallback, ...; reason: of a fallback;
         cost_m2, quality and gap_m2 of the plan found; generated and expanded vertices of its search."""
-        import pandas
-
+        pandas = optional_module("pandas")
         return pandas.DataFrame(self.step_columns)
 
     @property
     def trajectories(self) -> pandas.DataFrame:
         """A row per vehicle and tick of 20 ms: true pose (yaw), speed, throttle and steering in -1 ... 1. t_s is 0 at
         the first step; the vehicles have stood before. Guests are vehicles here, too. Empty in a rollout."""
-        import pandas
-
+        pandas = optional_module("pandas")
         return pandas.DataFrame(self.trajectory_columns or {})
 
     def _shaped(self, *columns: str) -> NDArray[np.float64]:
