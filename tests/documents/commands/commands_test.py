@@ -1,7 +1,8 @@
 """The commands of the READMEs run as they stand, in their order, in a copy of the project.
 
 Every line of a block of code that calls a program is run, or in NOT_RUN with the reason. Some do less than they would:
-the flags of SHORTER replace theirs or are appended.
+the flags of SHORTER replace theirs or are appended. A block of the language `output` shows lines that the commands before
+it print: no figure in it can go stale.
 """
 import json
 import os
@@ -21,7 +22,7 @@ sys.path[:0] = [str(FOLDER.parent), str(ROOT / "launch_scripts")]
 
 import command_lines  # noqa: E402
 import program_help  # noqa: E402
-from markdown import Document  # noqa: E402
+from markdown import Block, Document  # noqa: E402
 
 DOCUMENTS = ["README.md", "launch_scripts/RUNS.md", "planner/YOUR_CAR.md",
              *sorted(str(file.relative_to(ROOT)) for top in ("launch_scripts", "planner", "vehicle_sim", "hlc_bridge")
@@ -82,12 +83,18 @@ LONGEST_S = 600  # a command: so much only if it hangs
 NEEDED = {"draw_run": ("chromium", "ffmpeg"), "ffmpeg": ("chromium", "ffmpeg")}  # without which the tests of the program itself are skipped, too
 
 
-def lines_of(document: Document) -> list[tuple[int, str]]:
+def lines_of_block(block: Block) -> list[tuple[int, str]]:
     """Number and text of the lines that call programs."""
+    if block.language not in command_lines.SHELLS:
+        return []
     ours = set(program_help.programs()) | {"hlc-rollout", "hlc-run-lab"}
-    return [(block.line + i, line) for block in document.blocks if block.language in command_lines.SHELLS
-            for i, line in enumerate(command_lines.joined(block.lines)) for words in command_lines.split(line)[:1]
+    return [(block.line + i, line) for i, line in enumerate(command_lines.joined(block.lines))
+            for words in command_lines.split(line)[:1]
             if words[0] in ours | OTHERS or re.fullmatch(r"(\./)?[\w/]+\.(sh|py)|build/release/bin/\w+", words[0])]
+
+
+def lines_of(document: Document) -> list[tuple[int, str]]:
+    return [line for block in document.blocks for line in lines_of_block(block)]
 
 
 def reason_not_to_run(line: str) -> str | None:
@@ -141,16 +148,27 @@ class Commands(unittest.TestCase):
     def run_document(self, name: str) -> pathlib.Path:
         copy = self.copy()
         path = f"{pathlib.Path(sys.executable).parent}:{copy}/build/release/bin:{os.environ['PATH']}"
-        for number, line in lines_of(Document(ROOT / name)):
-            needed = NEEDED.get(pathlib.Path(line.split()[0]).name, ())
-            if reason_not_to_run(line) or not all(map(shutil.which, needed)):
-                continue
-            command = shortened(line).replace("/tmp/", f"{copy}/")
-            with self.subTest(line=f"{name}:{number}"):
-                code, printed = ended(command, copy, path)
-                expected = next((code for begin, code in EXIT_CODES.items() if line.startswith(begin)), 0)
-                self.assertEqual(code, expected, f"{command}\n{printed[-3000:]}")
+        printed: list[str] = []  # since the last block that shows some of it
+        for block in Document(ROOT / name).blocks:
+            for number, line in lines_of_block(block):
+                with self.subTest(line=f"{name}:{number}"):
+                    printed += self.run_line(line, copy, path).splitlines()
+            if block.language == "output":
+                with self.subTest(output=f"{name}:{block.line}"):
+                    self.assertEqual([line for line in block.lines if line not in [*printed, "", "..."]], [], "\n".join(printed))
+                printed = []
         return copy
+
+    def run_line(self, line: str, copy: pathlib.Path, path: str) -> str:
+        """@return what it printed; nothing where it is not run"""
+        needed = NEEDED.get(pathlib.Path(line.split()[0]).name, ())
+        if reason_not_to_run(line) or not all(map(shutil.which, needed)):
+            return ""
+        command = shortened(line).replace("/tmp/", f"{copy}/")
+        code, printed = ended(command, copy, path)
+        expected = next((code for begin, code in EXIT_CODES.items() if line.startswith(begin)), 0)
+        self.assertEqual(code, expected, f"{command}\n{printed[-3000:]}")
+        return printed
 
 
 class MainDocument(Commands):
