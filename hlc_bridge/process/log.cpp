@@ -21,7 +21,6 @@ spdlog::level::level_enum level_of(machine::Severity severity) {
 }  // namespace
 
 void log(const std::string& process, const machine::LogLine& line) {
-  // Of text that spdlog itself formats every file would compile how fmt writes numbers.
   spdlog::log(level_of(line.severity),
               process.empty() ? line.text : fmt::format("{}: {}", process, line.text));
 }
