@@ -43,7 +43,8 @@ void RouteTracker::select_route(const Pose& pose, const Footprint& footprint) {
 }
 
 road::Placement RouteTracker::place(const Pose& pose, const Footprint& footprint) {
-  const double from_s_m = std::max(0.0, s_m_.value_or(0.0) - kProjectionBack_m);
+  std::optional<double> from_s_m;
+  if (s_m_) from_s_m = *s_m_ - kProjectionBack_m;
   road::Placement placement = road::placement_on(route(), pose, footprint, from_s_m);
   s_m_ = placement.s_m;
   return placement;

@@ -37,8 +37,8 @@ class RouteTracker {
   /// Selects the route that the pose fits best (placement.hpp), from its place there on.
   /// @param pose  the planner's (heading, not yaw)
   void select_route(const Pose& pose, const Footprint& footprint);
-  /// The place of the pose on the selected route, independent of the former place, except where the
-  /// route drives a lane more than once: there the next of these places.
+  /// The place of the pose on the selected route: near the former place, unless it was moved away
+  /// from there (road::placement_on).
   road::Placement place(const Pose& pose, const Footprint& footprint);
   /// Advances to the position. @param reach_m  as for `project`
   void advance(const Point& position_m, double reach_m) { s_m_ = project(position_m, reach_m); }

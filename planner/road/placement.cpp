@@ -120,30 +120,30 @@ void look_beyond(const DrivableRoute& route, const std::vector<Point>& outline_m
   }
 }
 
-/// What a place behind must be better by, about a lane's width: a car that stands at the end of an
-/// open path which ends where it began stays there.
-constexpr double kBehind_m = 0.15;
-
-/// True if the place counts instead of the best one so far: if it is better, and not only a little
+/// Whether the place counts instead of the best one so far: if it is better, and not only a little
 /// where the path drives the same lane again.
-/// @param is_behind  the place lies behind the others on an open path
-bool replaces(const Placement& place, const Placement& best, const ReferencePath& path,
-              bool is_behind) {
+bool replaces(const Placement& place, const Placement& best, const ReferencePath& path) {
   const double gain_m = placement_cost_m(best) - placement_cost_m(place);
-  if (gain_m <= (is_behind ? kBehind_m : 0.0)) return false;
+  if (gain_m <= 0.0) return false;
   return gain_m > kSameLane_m || !drives_again(path, best.s_m, place.s_m);
 }
 
-/// The best of the nearest points of all segments of the path, in their order from
-/// `from_s_m` on.
-Placement best_place(const ReferencePath& path, const Pose& pose, double from_s_m) {
-  Placement best{.distance_m = kInfinity};
+/// The best of the nearest points of all segments of the path, in their order from `from_s_m` on.
+Placement best_place(const ReferencePath& path, const Pose& pose, std::optional<double> from_s_m) {
+  Placement near_by{.distance_m = kInfinity};
+  Placement elsewhere{.distance_m = kInfinity};
   const std::vector<double>& joints = path.joints_s_m();
   const std::size_t num_segments = joints.size() - 1;
+  const double s_m = from_s_m.value_or(0.0);
+  const double laps = path.is_closed() ? std::floor(s_m / path.length_m()) : 0.0;
   const auto first = static_cast<std::size_t>(
-      std::upper_bound(joints.begin() + 1, joints.end() - 1, from_s_m) - joints.begin() - 1);
+      std::upper_bound(joints.begin() + 1, joints.end() - 1, s_m - laps * path.length_m()) -
+      joints.begin() - 1);
   for (std::size_t k = 0; k < num_segments; ++k) {
     const std::size_t i = (first + k) % num_segments;
+    const bool is_behind = !path.is_closed() && i < first;
+    const double way_m = joints[i] - joints[first] + (i < first ? path.length_m() : 0.0);
+    Placement& best = from_s_m && (is_behind || way_m > kNearBy_m) ? elsewhere : near_by;
     // Most segments are too far away, in any direction: none of their points is nearer than the
     // first by more than the length.
     const double from_first_m = (pose.position_m() - path.points_m()[i]).norm();
@@ -153,10 +153,10 @@ Placement best_place(const ReferencePath& path, const Pose& pose, double from_s_
     const Placement one{.s_m = projection.s_m,
                         .distance_m = projection.distance_m,
                         .turned_rad = wrap_angle(pose.heading_rad - heading_rad)};
-    const bool is_behind = !path.is_closed() && i < first;
-    if (replaces(one, best, path, is_behind)) best = one;
+    if (replaces(one, best, path)) best = one;
   }
-  return best;
+  const bool is_elsewhere = placement_cost_m(elsewhere) < placement_cost_m(near_by) - kElsewhere_m;
+  return is_elsewhere ? elsewhere : near_by;
 }
 
 }  // namespace
@@ -174,7 +174,7 @@ bool fits(const Placement& placement, const DrivableRoute& route) {
 }
 
 Placement placement_on(const DrivableRoute& route, const Pose& pose, const Footprint& footprint,
-                       double from_s_m) {
+                       std::optional<double> from_s_m) {
   Placement placement = best_place(route.path, pose, from_s_m);
   const ConvexPolygon area = footprint_area(footprint, pose);
   look_beyond(route, outline(area), placement);

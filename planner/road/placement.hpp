@@ -56,13 +56,23 @@ inline constexpr double kFitsTurned_rad = 0.6;
 ///
 /// the mean of the errors of position and front. Where two strands cross or run side by side in
 /// opposite directions it is the one in the vehicle's direction. Where the path drives a lane more
-/// than once (reference_path.hpp), it is the first one from `from_s_m` on, though another one may
-/// be better by up to kSameLane_m; and on an open path it is one from there on, though one behind
-/// may be better by up to kFitsBeyond_m: a vehicle that stands at the end of a path is there also
-/// where the path begins.
-/// @param pose  the planner's (heading, not yaw)
+/// than once (reference_path.hpp), it is the first one, though another one may be better by up to
+/// kSameLane_m.
+///
+/// A vehicle whose former place is known is on the first kNearBy_m from `from_s_m` on, unless a
+/// place elsewhere is better by more than kElsewhere_m: someone has moved it. Where two lanes part
+/// a vehicle that stands askew fits the wrong one better, and a random tour drives that one, too,
+/// perhaps a hundred metres on; at the end of an open path it may fit the begin.
+/// @param pose      the planner's (heading, not yaw)
+/// @param from_s_m  on a closed path counted on over its ends; none: the former place is not known
 [[nodiscard]] Placement placement_on(const DrivableRoute& route, const Pose& pose,
-                                     const Footprint& footprint, double from_s_m = 0.0);
+                                     const Footprint& footprint,
+                                     std::optional<double> from_s_m = std::nullopt);
+
+/// About three cars' lengths and half a second's way.
+inline constexpr double kNearBy_m = 1.0;
+/// A lane's width.
+inline constexpr double kElsewhere_m = 0.15;
 
 /// The measure above for comparing places [m].
 [[nodiscard]] double placement_cost_m(const Placement& placement);

@@ -103,6 +103,35 @@ TEST(Placement, OnAnOpenPathThatEndsWhereItBeganIsNotAtTheBeginAgain) {
       << "somebody has put it there";
 }
 
+// Twenty cars with random turns knotted behind one that, as it waited where two lanes part, took
+// its place on the other lane for its own, 122 m further on its tour.
+TEST(Placement, AVehicleThatStandsAskewWhereLanesPartStaysOnTheLaneThatItIsDriving) {
+  const std::vector<Point> corners{{0.0, 0.0},   {2.0, 0.0},  {4.0, 0.0},  {4.0, -4.0},
+                                   {-2.0, -4.0}, {-2.0, 0.0}, {0.0, 0.0},  {2.0, 0.0},
+                                   {4.0, 0.4},   {4.0, 4.0},  {-4.0, 4.0}, {-4.0, 0.0}};
+  for (const bool closed : {false, true}) {
+    const DrivableRoute tour{
+        .name = "tour", .path = ReferencePath(corners, closed), .corridor = {}};
+    const double again_m = 4.0 + 4.0 + 6.0 + 4.0 + 2.0;  // arc length of (0, 0) the second time
+    const Pose askew{3.0, 0.12, 0.15};
+    EXPECT_NEAR(placement_on(tour, askew, kFootprint, 2.7).s_m, 3.0, 1e-9) << closed;
+    EXPECT_NEAR(placement_on(tour, askew, kFootprint, again_m + 2.7).s_m, again_m + 3.0, 0.05);
+    EXPECT_NEAR(placement_on(tour, askew, kFootprint).s_m, again_m + 3.0, 0.05)
+        << "the best one, where nothing is known";
+    const Pose moved{4.0, 3.0, 1.6};
+    EXPECT_GT(placement_on(tour, moved, kFootprint, 2.7).s_m, again_m + 4.0) << closed;
+  }
+}
+
+TEST(Placement, AVehicleMovedBackOverTheBeginOfAClosedPathIsAtItsEnd) {
+  const DrivableRoute ring{
+      .name = "ring",
+      .path =
+          ReferencePath({Point(0.0, 0.0), Point(4.0, 0.0), Point(4.0, 4.0), Point(0.0, 4.0)}, true),
+      .corridor = {}};
+  EXPECT_NEAR(placement_on(ring, {0.0, 0.1, -1.0}, kFootprint, 0.1 - 0.3).s_m, 15.9, 1e-9);
+}
+
 TEST(Placement, OfTwoStrandsThatCrossIsOnTheOneThatTheVehiclePointsAlong) {
   const DrivableRoute route{
       .name = "loop",
