@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace hlc::right_of_way {
 namespace {
@@ -28,9 +29,12 @@ class Grants {
   /// How far the authority of a holder reaches if it is extended, and nobody else's.
   [[nodiscard]] double reach_m(std::size_t who, double look_ahead_m) {
     count(who, -1);  // its own are free for it
+    const std::vector<std::uint32_t> behind = places_behind(who);
+    for (const std::uint32_t cell : behind) --num_holders_[cell];
     coordination::LaneClaim claim = holders_[who].claim;
     claim.ahead_m = ahead_m_[who];
     const double end_m = reach_m(claim, look_ahead_m);
+    for (const std::uint32_t cell : behind) ++num_holders_[cell];
     count(who, 1);
     return end_m;
   }
@@ -82,6 +86,34 @@ class Grants {
   }
 
  private:
+  /// Cells of the places that overlap this vehicle's place and lie behind it.
+  [[nodiscard]] std::vector<std::uint32_t> places_behind(std::size_t who) const {
+    std::vector<std::uint32_t> cells;
+    const std::uint32_t own = place_of(who);
+    for (std::size_t other = 0; other < holders_.size(); ++other) {
+      const std::uint32_t cell = place_of(other);
+      if (other == who || num_until_clear_of(cell, who) == 0) continue;
+      const auto is_ahead = std::pair(num_until_clear_of(cell, who), holders_[who].vehicle) <
+                            std::pair(num_until_clear_of(own, other), holders_[other].vehicle);
+      if (is_ahead) cells.push_back(cell);
+    }
+    return cells;
+  }
+  [[nodiscard]] std::uint32_t place_of(std::size_t who) const {
+    const std::size_t route = holders_[who].claim.route;
+    return map_.cell(route, map_.index_of(route, first_of(who)));
+  }
+  /// How many cells the vehicle drives, from its place on, that overlap this one.
+  [[nodiscard]] std::size_t num_until_clear_of(std::uint32_t cell, std::size_t who) const {
+    const std::size_t route = holders_[who].claim.route;
+    std::size_t num = 0;
+    while (num < map_.num_cells(route) &&
+           std::ranges::binary_search(
+               map_.overlaps(route, map_.index_of(route, first_of(who) + CellNumber(num))), cell)) {
+      ++num;
+    }
+    return num;
+  }
   [[nodiscard]] CellNumber first_of(std::size_t who) const {
     const coordination::LaneClaim& claim = holders_[who].claim;
     return map_.count_at(claim.route, claim.place_m);

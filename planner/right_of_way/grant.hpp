@@ -27,6 +27,11 @@ struct Blocked {
 /// whole, with the first cell behind it that is none. Behind a vehicle ahead it ends at that one's
 /// present place, not where it is going to be.
 ///
+/// Places can overlap already: at a start, or at a merge that two vehicles have entered because
+/// messages were lost. Of two such vehicles neither would be granted anything, since each next cell
+/// overlaps the other's place. So the place of the one behind is free for the one that is ahead:
+/// that has fewer cells to drive until none overlaps the other's place, then the smaller id.
+///
 /// A pure function of what all vehicles announced: controllers that received the same compute the
 /// same, without a further message. It never takes a cell from a vehicle. A controller that has not
 /// received all of them must not take what is granted here (cautious_grant).
@@ -48,9 +53,10 @@ struct Missing {
 /// this step, whatever it has received, and the vehicle `own` with what it takes: cells outside of
 /// all that. None if no missing vehicle can change what `grant` gives to `own`: then it takes that.
 ///
-/// So no two vehicles hold overlapping cells, whatever is lost. By induction, let none do as the
-/// step begins. The *reach* of a vehicle is what it may hold at the end of the step: the cells up
-/// to its look-ahead that none of those that were received holds.
+/// So no two vehicles hold overlapping cells, whatever is lost, unless their places overlap, which
+/// they do not by this rule. By induction, let none do as the step begins. The *reach* of a vehicle
+/// is what it may hold at the end of the step: the cells up to its look-ahead that none of those
+/// that were received holds.
 /// * A vehicle takes cells in its reach only. So does a missing one: what it has taken since it was
 ///   last received was free when it took it, and those that were received hold theirs still, or
 ///   hold only cells behind it that it has left, up to `moved_m`.

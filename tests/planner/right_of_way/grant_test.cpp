@@ -303,6 +303,46 @@ TEST(Grant, NothingIsGrantedWhereTheWholeRouteIsInConflict) {
   EXPECT_EQ(grant(map, {&one, 1}, {}, kLookAhead_m), std::vector{0.25});
 }
 
+// Two cars that had entered a merge side by side, after a message was lost, stood there for good.
+TEST(Grant, OfTwoVehiclesWhosePlacesOverlapTheOneAheadGetsOn) {
+  const ConflictMap map({{loop_beside_lane(1.0), loop_beside_lane(-1.0)}}, kCar);
+  for (const std::uint8_t ahead : std::array<std::uint8_t, 2>{1, 2}) {
+    for (const std::uint32_t waits : {0U, 9U}) {
+      const std::vector<Holder> both = granted(
+          map,
+          {{.vehicle = {ahead}, .claim = {.route = 0, .place_m = map.length_m(0) - 0.05}},
+           {.vehicle = {static_cast<std::uint8_t>(3 - ahead)},
+            .claim = {.route = 1, .place_m = map.length_m(1) - 0.15, .waiting_steps = waits}}});
+      EXPECT_GT(both[0].claim.ahead_m, 0.5) << waits;
+      EXPECT_EQ(both[1].claim.ahead_m, 0.0) << waits;
+    }
+  }
+}
+
+TEST(Grant, OfTwoVehiclesWhosePlacesOverlapAnywhereOneGetsOn) {
+  const ConflictMap& map = *lab_cars().conflicts;
+  std::size_t num_pairs = 0;
+  for (std::uint64_t seed = 0; seed < test::num_seeds(500); ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    const auto one = static_cast<std::uint32_t>(random() % map.num_routes());
+    const auto two = static_cast<std::uint32_t>(random() % map.num_routes());
+    const std::size_t cell = random() % map.num_cells(one);
+    for (std::size_t other = 0; other < map.num_cells(two); ++other) {
+      if (!std::ranges::binary_search(map.overlaps(one, cell), map.cell(two, other))) continue;
+      const auto place_m = [&](std::uint32_t route, std::size_t at) {
+        return static_cast<double>(at) * map.cell_m(route);
+      };
+      const std::vector<Holder> both =
+          granted(map, {{.vehicle = {1}, .claim = {.route = one, .place_m = place_m(one, cell)}},
+                        {.vehicle = {2}, .claim = {.route = two, .place_m = place_m(two, other)}}});
+      EXPECT_GT(std::max(both[0].claim.ahead_m, both[1].claim.ahead_m), 0.5) << other;
+      ++num_pairs;
+    }
+  }
+  EXPECT_GT(num_pairs, 100U);
+}
+
 // Ten cars stood in a knot for good after a tenth of the messages had been lost.
 TEST(CautiousGrant, NoTwoVehiclesHoldOverlappingCellsWhateverIsLost) {
   std::size_t num_cautious = 0;
