@@ -43,8 +43,10 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
   const double plans_m =
       counted_on(tracker.project(in_force.pose_at(in_force.end()).position_m(), reach_m), place_m) -
       place_m;
-  const bool is_continued = has_place_ && claim_.route == route;
-  const double moved_m = is_continued ? std::remainder(place_m - claim_.place_m, length_m) : 0.0;
+  const double from_former_m = std::remainder(place_m - claim_.place_m, length_m);
+  const bool is_continued =
+      has_place_ && claim_.route == route && std::abs(from_former_m) <= reach_m;
+  const double moved_m = is_continued ? from_former_m : 0.0;
   const double held_m = is_continued ? claim_.ahead_m - moved_m : 0.0;
   const bool stands = is_continued && std::abs(moved_m) < map_->scale() * kStands_m;
   const bool is_unused = stands && held_m > std::max(plans_m, 0.0) + map_->cell_m(route);
@@ -139,6 +141,10 @@ void Authority::resume(const coordination::LaneClaim& claim, VehicleId vehicle,
 double Authority::end_s_m(double s_m) const {
   const double moved_m = std::remainder(s_m - claim_.place_m, map_->length_m(claim_.route));
   return s_m + std::max(0.0, claim_.ahead_m - moved_m);
+}
+
+bool Authority::is_before_bar(double at_s_m, double s_m) const {
+  return at_s_m <= end_s_m(s_m) + map_->scale() * (kBehindEnd_m + kBarLength_m);
 }
 
 ConvexPolygon Authority::bar_m(const RouteTracker& tracker, const Footprint& footprint) const {

@@ -29,8 +29,10 @@ namespace hlc::controller {
 ///
 /// The end of the authority is a limit of planning, on top of everything that keeps plans apart:
 /// whatever the others hold or announce, no plan meets another's. It is never nearer than the end
-/// of the plan in force. A car that stands askew in a bend may reach into the bar behind the end;
-/// it then finds no plan until more is granted to it.
+/// of the plan in force. Where the road is wider than the lane a search finds plans around the bar
+/// behind it, such as to get away from all places where a missing vehicle can be: they are dropped
+/// (`is_before_bar`), and the plan in force is driven on. A car that stands askew in a bend may
+/// reach into the bar behind the end; it then finds no plan until more is granted to it.
 class Authority {
  public:
   static constexpr std::uint32_t kPatience_steps = 25;
@@ -41,7 +43,8 @@ class Authority {
 
   /// The vehicle holds nothing any longer: it was moved to another place.
   void release() { has_place_ = false; }
-  /// Starts a step: the vehicle's place, by its plan.
+  /// Starts a step: the vehicle's place, by its plan. At one that is more than `reach_m` from the
+  /// former one along the route it holds nothing any longer.
   /// @param reach_m  as for RouteTracker::project
   void begin_step(const coordination::Plan& in_force, StepIndex now, const RouteTracker& tracker,
                   double reach_m);
@@ -76,6 +79,9 @@ class Authority {
 
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.
   [[nodiscard]] double end_s_m(double s_m) const;
+  /// Whether a vehicle at arc length `at_s_m`, counted on from `s_m`, has its front before the
+  /// bar's far side.
+  [[nodiscard]] bool is_before_bar(double at_s_m, double s_m) const;
   /// An area across the lane behind the end, to be kept clear of.
   [[nodiscard]] ConvexPolygon bar_m(const RouteTracker& tracker, const Footprint& footprint) const;
 

@@ -228,8 +228,8 @@ std::optional<double> Controller::path_s_m_of(const Point& position_m) const {
 }
 
 search::HorizonProblem Controller::problem_in(const road::Corridor& corridor,
-                                              double end_s_m) const {
-  return problem_alone(step_.traffic, tracker_, corridor, reach_m(), subgraph(), options_, end_s_m);
+                                              const ReferenceEnd& end) const {
+  return problem_alone(step_.traffic, tracker_, corridor, reach_m(), subgraph(), options_, end);
 }
 
 void Controller::update_drivable_area() {

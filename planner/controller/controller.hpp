@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "planner/controller/observation.hpp"
 #include "planner/controller/plan_in_force.hpp"
 #include "planner/controller/prepared_subgraph.hpp"
+#include "planner/controller/problem_alone.hpp"
 #include "planner/controller/route_tracker.hpp"
 #include "planner/controller/shared_step.hpp"
 #include "planner/coordination/coupling.hpp"
@@ -330,12 +330,11 @@ class Controller {
   void drop_kept_plan();
   void check_start();
   [[nodiscard]] double reach_m() const { return search_.reach_m(step_.traffic.next_trim); }
-  static constexpr double kNoEnd_m = std::numeric_limits<double>::infinity();
   [[nodiscard]] search::HorizonProblem problem_in(const road::Corridor& corridor,
-                                                  double end_s_m = kNoEnd_m) const;
+                                                  const ReferenceEnd& end = {}) const;
   void update_drivable_area();
   [[nodiscard]] LaneEntry find_lane_entry();
-  [[nodiscard]] search::HorizonProblem posed_alone(double end_s_m = kNoEnd_m) const;
+  [[nodiscard]] search::HorizonProblem posed_alone(const ReferenceEnd& end = {}) const;
   [[nodiscard]] search::HorizonProblem pose_problem(CoupledObstacleRule rule) const;
   [[nodiscard]] CoupledVehicle coupled_vehicle(VehicleId other) const;
   [[nodiscard]] MissingVehicle missing_vehicle(VehicleId other) const;
@@ -354,6 +353,7 @@ class Controller {
   bool find_candidate(const search::HorizonProblem& problem, std::size_t budget_share);
   void search_plan(search::HorizonProblem problem, std::size_t budget_share);
   [[nodiscard]] PlanWithout search_again(const LeftOut& left_out);
+  [[nodiscard]] bool ends_where_permitted(const coordination::Plan& plan) const;
   void keep_in_lane_where_held_up(const search::HorizonProblem& problem, std::size_t budget_share);
   [[nodiscard]] bool makes_room_for(const CoupledVehicle& other) const;
   [[nodiscard]] bool make_room(const search::HorizonProblem& own);

@@ -89,6 +89,9 @@ struct ControllerOptions {
   /// w of HorizonProblem: how much more an error across the path counts than one along it. 0: as in
   /// the paper.
   double contouring_weight{};
+  /// w of a vehicle that is held up (held_up.hpp): a greater one keeps it in its lane where it
+  /// waits, and does not slow down others.
+  std::optional<double> held_up_contouring_weight{};  ///< none: the same
   road::ReferenceRule reference_rule{road::half_speed_last};
   ControllerStrategies strategies{};
   search::SearchOptions search{};

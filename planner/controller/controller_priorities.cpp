@@ -12,8 +12,9 @@ namespace hlc::controller {
 std::vector<ConvexPolygon> Controller::reference_areas_m() const {
   if (!path_s_m()) return {};
   const double s_m = tracker_.project(step_.traffic.next_pose.position_m(), reach_m());
-  return areas_on(reference_alone(step_.traffic, tracker_, s_m, subgraph(), options_, kNoEnd_m),
-                  route().path, subgraph().automaton().vehicle);
+  return areas_on(
+      reference_alone(step_.traffic, tracker_, s_m, subgraph(), options_, ReferenceEnd{}.s_m),
+      route().path, subgraph().automaton().vehicle);
 }
 
 void Controller::plan_in(const coordination::PriorityOrder& plans_before, std::uint32_t level) {

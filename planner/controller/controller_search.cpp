@@ -17,9 +17,8 @@ constexpr double kLeastGain_m2 = 1e-9;
 
 }  // namespace
 
-search::HorizonProblem Controller::posed_alone(double end_s_m) const {
-  search::HorizonProblem problem =
-      problem_in(entry_area() ? *entry_area() : route().corridor, end_s_m);
+search::HorizonProblem Controller::posed_alone(const ReferenceEnd& end) const {
+  search::HorizonProblem problem = problem_in(entry_area() ? *entry_area() : route().corridor, end);
   if (!standing_m_.empty()) problem.obstacles_m.assign(problem.horizon_steps(), standing_m_);
   if (step_.left_out.boundary) problem.boundary_m.clear();
   return problem;
@@ -27,8 +26,8 @@ search::HorizonProblem Controller::posed_alone(double end_s_m) const {
 
 search::HorizonProblem Controller::pose_problem(CoupledObstacleRule rule) const {
   const bool has_end = authority_ && !step_.left_out.authority;
-  search::HorizonProblem problem =
-      posed_alone(has_end ? authority_->end_s_m(tracker_.s_m().value()) : kNoEnd_m);
+  search::HorizonProblem problem = posed_alone(
+      has_end ? ReferenceEnd{authority_->end_s_m(tracker_.s_m().value())} : ReferenceEnd{});
   problem.obstacles_m = obstacles_m(rule);
   for (auto& areas_m : problem.obstacles_m)
     std::ranges::copy(standing_m_, std::back_inserter(areas_m));
@@ -60,12 +59,17 @@ bool Controller::find_candidate(const search::HorizonProblem& problem, std::size
   step_.cost_m2 = step_.report.cost_m2;
   if (!authority_ || !step_.candidate.plan) return step_.candidate.plan.has_value();
   keep_in_lane_where_held_up(problem, budget_share);
-  if (!ends_along_lane(*step_.candidate.plan, in_force_->base(), step_.next(), tracker_,
-                       reach_m())) {
+  if (!ends_where_permitted(*step_.candidate.plan)) {
     step_.candidate.plan.reset();
     step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
   }
   return step_.candidate.plan.has_value();
+}
+
+bool Controller::ends_where_permitted(const coordination::Plan& plan) const {
+  const double end_m = end_s_m(plan, step_.next(), tracker_, reach_m());
+  return ends_along_lane(plan, in_force_->base(), step_.next(), tracker_, reach_m()) &&
+         (step_.left_out.authority || authority_->is_before_bar(end_m, tracker_.s_m().value()));
 }
 
 /// The second plan replaces the first one also if it ends askew and is dropped then, and it is
@@ -75,7 +79,8 @@ void Controller::keep_in_lane_where_held_up(const search::HorizonProblem& proble
   const std::optional<double> held_up_m =
       held_up_at_m(*step_.candidate.plan, step_.next(), problem, tracker_, reach_m());
   if (!held_up_m) return;
-  search::HorizonProblem within = with_reference_of(problem, posed_alone(*held_up_m));
+  search::HorizonProblem within =
+      with_reference_of(problem, posed_alone({.s_m = *held_up_m, .is_held_up = true}));
   within.incumbent =
       options_.strategies.incumbent(*step_.candidate.plan, step_.next(), options_.horizon_steps);
   PlanCandidate first = step_.candidate;

@@ -4,20 +4,18 @@
 #include <cmath>
 
 #include "planner/common/demand.hpp"
+#include "planner/controller/plan_end.hpp"
 
 namespace hlc::controller {
 
 std::optional<double> held_up_at_m(const coordination::Plan& plan, StepIndex next,
                                    const search::HorizonProblem& problem,
                                    const RouteTracker& tracker, double reach_m) {
-  const double s_m = tracker.s_m().value();
-  const double length_m = tracker.route().path.length_m();
-  const auto counted_on_m = [&](const Point& position_m) {
-    return s_m + std::remainder(tracker.project(position_m, reach_m) - s_m, length_m);
-  };
-  const double end_s_m = counted_on_m(plan.pose_at(std::max(plan.end(), next)).position_m());
-  if (counted_on_m(problem.reference_m.back()) - end_s_m < kHeldUp_m) return std::nullopt;
-  return end_s_m;
+  const double end_m = end_s_m(plan, next, tracker, reach_m);
+  const double reference_m = tracker.project(problem.reference_m.back(), reach_m);
+  const double left_m = std::remainder(reference_m - end_m, tracker.route().path.length_m());
+  if (left_m < kHeldUp_m) return std::nullopt;
+  return end_m;
 }
 
 search::HorizonProblem with_reference_of(search::HorizonProblem problem,

@@ -14,6 +14,14 @@ constexpr double kHalfLaneChord_m = 0.05;
 
 }  // namespace
 
+double end_s_m(const coordination::Plan& plan, StepIndex next, const RouteTracker& tracker,
+               double reach_m) {
+  const double s_m = tracker.s_m().value();
+  const Point end_m = plan.pose_at(std::max(plan.end(), next)).position_m();
+  return s_m +
+         std::remainder(tracker.project(end_m, reach_m) - s_m, tracker.route().path.length_m());
+}
+
 double turned_at_end_rad(const coordination::Plan& plan, StepIndex next,
                          const RouteTracker& tracker, double reach_m) {
   const Pose& end = plan.pose_at(std::max(plan.end(), next));

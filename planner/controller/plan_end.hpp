@@ -11,10 +11,15 @@ namespace hlc::controller {
 /// those behind it. In bends vehicles end turned by 0.16 rad, since braking straightens the wheels.
 inline constexpr double kMostTurned_rad = 0.25;
 
-/// Angle between the vehicle where the plan ends and the path at its place there, in [0, pi].
+/// Arc length of the place on the path where the plan ends, counted on from the tracker's.
 /// @param next     the plan is known from t(next) on
 /// @param tracker  has selected a route
 /// @param reach_m  as for RouteTracker::project
+[[nodiscard]] double end_s_m(const coordination::Plan& plan, StepIndex next,
+                             const RouteTracker& tracker, double reach_m);
+
+/// Angle between the vehicle where the plan ends and the path at its place there, in [0, pi].
+/// Parameters as for `end_s_m`.
 [[nodiscard]] double turned_at_end_rad(const coordination::Plan& plan, StepIndex next,
                                        const RouteTracker& tracker, double reach_m);
 

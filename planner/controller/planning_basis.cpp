@@ -169,6 +169,7 @@ std::uint64_t digest_of(const ControllerOptions& options) {
   hash.add(std::uint64_t{options.horizon_steps});
   hash.add(options.reference_speed_mps);
   hash.add(options.contouring_weight);
+  hash.add(options.held_up_contouring_weight.value_or(options.contouring_weight));
   hash.add(road::name_of(options.reference_rule));
   add(hash, options.strategies);
   add(hash, options.search);

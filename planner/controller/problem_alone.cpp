@@ -62,15 +62,16 @@ std::vector<ConvexPolygon> areas_on(const road::Reference& reference,
 search::HorizonProblem problem_alone(const coordination::Traffic& own, const RouteTracker& tracker,
                                      const road::Corridor& corridor, double reach_m,
                                      const automaton::Subgraph& subgraph,
-                                     const ControllerOptions& options, double end_s_m) {
+                                     const ControllerOptions& options, const ReferenceEnd& end) {
   const double s_m = tracker.s_m().value();
   search::HorizonProblem problem{.start = own.next_pose, .start_trim = own.next_trim};
-  road::Reference reference = reference_alone(own, tracker, s_m, subgraph, options, end_s_m);
+  road::Reference reference = reference_alone(own, tracker, s_m, subgraph, options, end.s_m);
   problem.reference_m = std::move(reference.points_m);
   problem.reference_speed_mps = std::move(reference.speeds_mps);
-  if (options.contouring_weight > 0.0) {
-    problem.contouring = contouring(tracker.route().path, reference.s_m, options.contouring_weight);
-  }
+  const double weight = end.is_held_up
+                            ? options.held_up_contouring_weight.value_or(options.contouring_weight)
+                            : options.contouring_weight;
+  if (weight > 0.0) problem.contouring = contouring(tracker.route().path, reference.s_m, weight);
   const double reserve_m = scale_of(subgraph.automaton().vehicle.footprint) * kBoundaryReserve_m;
   problem.boundary_m = corridor.boundary_m(s_m - reserve_m, s_m + reach_m + reserve_m);
   return problem;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "planner/automaton/subgraph.hpp"
@@ -9,6 +10,13 @@
 #include "planner/search/horizon_problem.hpp"
 
 namespace hlc::controller {
+
+/// Where a vehicle's reference ends.
+struct ReferenceEnd {
+  /// Arc length of the end of its authority: no reference point lies beyond.
+  double s_m{std::numeric_limits<double>::infinity()};
+  bool is_held_up{};  ///< it gets only there (held_up.hpp), which decides on the contouring weight
+};
 
 /// The reference points that the vehicle has when its plan begins at the pose announced in its
 /// traffic: by the reference speed of the options, or the speed limit of the subgraph if that is
@@ -28,14 +36,13 @@ namespace hlc::controller {
 /// The problem of a vehicle without all others: from the pose announced in its traffic, along its
 /// route from its place there on, within the corridor as far as it may get.
 /// @param reach_m  how far the vehicle can get in a horizon
-/// @param end_s_m  arc length of the end of its authority: no reference point lies beyond
 /// @pre the tracker has selected a route
 [[nodiscard]] search::HorizonProblem problem_alone(const coordination::Traffic& own,
                                                    const RouteTracker& tracker,
                                                    const road::Corridor& corridor, double reach_m,
                                                    const automaton::Subgraph& subgraph,
                                                    const ControllerOptions& options,
-                                                   double end_s_m);
+                                                   const ReferenceEnd& end);
 
 /// The problem one step later, if all vehicles keep to their plans: from the vehicle's next pose,
 /// every step's reference and obstacles a step earlier, the last ones extrapolated. Without its

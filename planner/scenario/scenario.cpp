@@ -124,6 +124,7 @@ std::unique_ptr<controller::Controller> make_controller(const Scenario& scenario
                                     .horizon_steps = scenario.horizon_steps,
                                     .reference_speed_mps = reference_speed_mps,
                                     .contouring_weight = scenario.contouring_weight,
+                                    .held_up_contouring_weight = scenario.held_up_contouring_weight,
                                     .reference_rule = scenario.profile.reference_rule,
                                     .strategies = scenario.profile.strategies,
                                     .search = scenario.search,

@@ -54,6 +54,7 @@ struct Scenario {
   std::size_t horizon_steps{};
   double reference_speed_mps{};
   double contouring_weight{};  ///< ControllerOptions
+  std::optional<double> held_up_contouring_weight{};
   Profile profile;
   controller::Rounds rounds{};
   /// Engine: the command line's, else the file's, else the profile's

@@ -181,6 +181,7 @@ Scenario assemble_scenario(const ScenarioValues& values, ScenarioInputs inputs,
   scenario.horizon_steps = values.horizon_steps;
   scenario.reference_speed_mps = values.reference_speed_mps;
   scenario.contouring_weight = values.contouring_weight;
+  scenario.held_up_contouring_weight = values.held_up_contouring_weight;
   scenario.profile = profile_from_name(choices.profile);
   choose_strategies(values.strategies, scenario.profile);
   coordination::PriorityRule& priorities = scenario.profile.strategies.priorities;

@@ -25,6 +25,12 @@ std::filesystem::path beside(const std::filesystem::path& file, const std::strin
   return (file.parent_path() / path).lexically_normal();
 }
 
+std::optional<double> read_held_up_contouring_weight(const Node& node) {
+  const std::string key = "held_up_contouring_weight";
+  if (!node.has(key)) return std::nullopt;
+  return node.required<double>(key, between(0.0, controller::kMostContouringWeight));
+}
+
 void parse_routes(const Node& scenario, ScenarioValues& values) {
   values.has_random_routes = scenario.is_value("routes");
   if (values.has_random_routes) {
@@ -113,6 +119,7 @@ ScenarioValues parse_scenario(const Node& node, const std::filesystem::path& pat
                                                    above(0.0, automaton::kMaxVehicleSpeed_mps)),
       .contouring_weight = node.optional<double>("contouring_weight", 0.0,
                                                  between(0.0, controller::kMostContouringWeight)),
+      .held_up_contouring_weight = read_held_up_contouring_weight(node),
       .strategies = read_strategies(node),
       .priorities = read_priorities(node),
       .rounds = read_rounds(node),

@@ -92,6 +92,19 @@ TEST_F(AuthorityTest, AVehicleThatStandsHoldsItsPlaceOnly) {
   EXPECT_EQ(authority_.claim().waiting_steps, 0U);
 }
 
+// A waiting car whose place was taken for another one of its tour held 120 m of it, and twenty cars
+// stood for good.
+TEST_F(AuthorityTest, AVehicleThatIsElsewhereOnItsRouteHoldsItsPlaceOnly) {
+  ring_.tracker.select_route(ring_.pose_on(6.0), car().footprint);
+  begin_step(ring_.standing(6.0), 1);
+  extend({});
+  ASSERT_NEAR(authority_.claim().ahead_m, kLookAhead_m, ring_.map->cell_m(0));
+  ring_.tracker.select_route(ring_.pose_on(3.0), car().footprint);
+  begin_step(ring_.standing(3.0), 2);
+  EXPECT_NEAR(authority_.claim().place_m, 3.0, 1e-9);
+  EXPECT_EQ(authority_.claim().ahead_m, 0.0);
+}
+
 TEST_F(AuthorityTest, TheEndIsNeverInFrontOfThePlansEnd) {
   const coordination::Plan plan = ring_.driving(0.3);
   for (std::uint64_t step = 1; step <= 8; ++step) {
@@ -381,11 +394,13 @@ class GrantedRun {
     }
     observation.present = observation.active;
     std::vector<right_of_way::Holder> holders;
-    static_cast<void>(joint_step(
+    const std::vector<coordination::Report> reports = joint_step(
         controllers, observation,
         {.is_lost = is_lost, .on_traffic = [&](const Controller&, const Traffic& traffic) {
            holders.push_back({traffic.vehicle, traffic.claim.value()});
-         }}));
+         }});
+    for (const right_of_way::Holder& holder : holders) check_end(holder);
+    for (const coordination::Report& report : reports) held_[report.vehicle] = report.held.value();
     return holders;
   }
 
@@ -399,6 +414,18 @@ class GrantedRun {
   [[nodiscard]] std::size_t limited_plans() const { return limited_plans_; }
 
  private:
+  /// What a vehicle holds as a step begins reaches to the end of its plan at least.
+  void check_end(const right_of_way::Holder& holder) const {
+    const auto last = held_.find(holder.vehicle);
+    if (last == held_.end()) return;
+    const LaneClaim& claim = holder.claim;
+    const double beyond_m =
+        std::remainder(claim.place_m + claim.ahead_m - last->second.place_m - last->second.ahead_m,
+                       map_.length_m(claim.route));
+    // The bar lies 20 mm behind a car that stands at the end, and is 10 mm long.
+    EXPECT_LT(beyond_m, 0.031) << "vehicle " << int{holder.vehicle.value} << "'s plan ends there";
+  }
+
   void check(std::size_t i, const LaneClaim& claim, double ahead_m) {
     const coordination::Plan& plan = controllers_[i]->plan_in_force();
     const road::ReferencePath& path = controllers_[i]->route().path;
@@ -418,6 +445,7 @@ class GrantedRun {
   const right_of_way::ConflictMap& map_;
   std::vector<std::unique_ptr<Controller>> controllers_;
   std::map<std::size_t, double> last_m_;
+  std::map<VehicleId, coordination::HeldRoad> held_;  ///< in the last step
   double driven_m_{};
   std::size_t limited_plans_{};
 };
@@ -437,10 +465,12 @@ TEST(AuthorityInTheLab, NoPlanInForceEndsBeyondTheAuthority) {
   EXPECT_GT(limited_plans, 20U) << "no authority ever limited a plan";
 }
 
+// A vehicle planned around the end of its authority, over the lane beside it, to get away from all
+// places where a missing one could be.
 TEST(AuthorityInTheLab, NoTwoVehiclesHoldTheSameRoadWhateverIsLost) {
   const scenario::Scenario few = scenario::read_scenario(
       {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml", .cars = 10});
-  for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(2); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::num_costly_seeds(3); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const scenario::Scenario drawn = scenario::with_random_starts(few, seed);
     std::mt19937_64 random(seed);
@@ -457,7 +487,7 @@ TEST(AuthorityInTheLab, NoTwoVehiclesHoldTheSameRoadWhateverIsLost) {
         }
       }
     }
-    for (const auto& [vehicle, sum_m] : held_m) EXPECT_GT(sum_m, 40 * 0.3) << vehicle.value;
+    for (const auto& [vehicle, sum_m] : held_m) EXPECT_GT(sum_m, 40 * 0.2) << vehicle.value;
   }
 }
 

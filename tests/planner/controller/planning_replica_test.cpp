@@ -71,6 +71,7 @@ TEST_F(Replica, OnAnotherBasisCannotPlan) {
              [](ControllerOptions& options) { options.horizon_steps = 7; },
              [](ControllerOptions& options) { options.reference_speed_mps = 0.7; },
              [](ControllerOptions& options) { options.contouring_weight = 1.0; },
+             [](ControllerOptions& options) { options.held_up_contouring_weight = 1.0; },
              [](ControllerOptions& options) { options.search.max_expansions = 1000; },
              [](ControllerOptions& options) { options.search.engine = search::Engine::kBestFirst; },
              [](ControllerOptions& options) {

@@ -41,5 +41,27 @@ TEST(ReferenceAlone, IsNotFasterThanTheSubgraphsLimit) {
   }
 }
 
+/// |c|^2 of the first reference point.
+double weight(std::optional<double> held_up_weight, bool is_held_up) {
+  RouteTracker tracker(std::make_shared<const std::vector<road::DrivableRoute>>(
+      1, right_of_way::circle({0.0, 0.0}, 2.0)));
+  tracker.select_route({2.0, 0.0, 1.57}, {});
+  ControllerOptions options;
+  options.contouring_weight = 30.0;
+  options.held_up_contouring_weight = held_up_weight;
+  const search::HorizonProblem problem =
+      problem_alone({}, tracker, tracker.route().corridor, 2.0, limited(std::nullopt), options,
+                    {.is_held_up = is_held_up});
+  return problem.contouring.empty() ? 0.0 : problem.contouring.front().squaredNorm();
+}
+
+TEST(ProblemAlone, HasAWeightOfItsOwnWhereTheVehicleIsHeldUp) {
+  EXPECT_NEAR(weight(std::nullopt, false), 30.0, 1e-9);
+  EXPECT_NEAR(weight(std::nullopt, true), 30.0, 1e-9) << "the same";
+  EXPECT_NEAR(weight(150.0, false), 30.0, 1e-9);
+  EXPECT_NEAR(weight(150.0, true), 150.0, 1e-9);
+  EXPECT_EQ(weight(0.0, true), 0.0);
+}
+
 }  // namespace
 }  // namespace hlc::controller::problem_alone_test

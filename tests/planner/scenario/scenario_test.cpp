@@ -79,6 +79,10 @@ TEST_F(ScenarioErrors, AContouringWeightIsNotNegative) {
       HasSubstr(".yaml:8: coordination = polite, must be one of agreed, cooperative, strict"));
   EXPECT_THAT(error_of("horizon_steps: 8", "contouring_weight: -1"),
               HasSubstr(".yaml:8: contouring_weight = -1, must be a number >= 0 and <= 10000"));
+  EXPECT_EQ(error_of("horizon_steps: 8", "held_up_contouring_weight: 150"), "");
+  EXPECT_THAT(
+      error_of("horizon_steps: 8", "held_up_contouring_weight: 10001"),
+      HasSubstr(".yaml:8: held_up_contouring_weight = 10001, must be a number >= 0 and <= 10000"));
 }
 
 TEST_F(ScenarioErrors, TwoRoundsLeaveNoRoundForVotes) {
