@@ -144,7 +144,10 @@ double Authority::end_s_m(double s_m) const {
 }
 
 bool Authority::is_before_bar(double at_s_m, double s_m) const {
-  return at_s_m <= end_s_m(s_m) + map_->scale() * (kBehindEnd_m + kBarLength_m);
+  const double moved_m = std::remainder(s_m - claim_.place_m, map_->length_m(claim_.route));
+  const double from_m = claim_.place_m + moved_m;
+  return map_->count_at(claim_.route, from_m + at_s_m - s_m) <=
+         map_->count_at(claim_.route, from_m + end_s_m(s_m) - s_m);
 }
 
 ConvexPolygon Authority::bar_m(const RouteTracker& tracker, const Footprint& footprint) const {

@@ -79,8 +79,8 @@ class Authority {
 
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.
   [[nodiscard]] double end_s_m(double s_m) const;
-  /// Whether a vehicle at arc length `at_s_m`, counted on from `s_m`, has its front before the
-  /// bar's far side.
+  /// Whether a vehicle at arc length `at_s_m`, counted on from `s_m`, is in a cell up to the end's:
+  /// a plan that ends farther on would take a cell that was not granted.
   [[nodiscard]] bool is_before_bar(double at_s_m, double s_m) const;
   /// An area across the lane behind the end, to be kept clear of.
   [[nodiscard]] ConvexPolygon bar_m(const RouteTracker& tracker, const Footprint& footprint) const;

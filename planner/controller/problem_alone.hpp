@@ -13,7 +13,7 @@ namespace hlc::controller {
 
 /// Where a vehicle's reference ends.
 struct ReferenceEnd {
-  /// Arc length of the end of its authority: no reference point lies beyond.
+  /// Arc length; no point lies beyond. The end of its authority, or where it is held up.
   double s_m{std::numeric_limits<double>::infinity()};
   bool is_held_up{};  ///< it gets only there (held_up.hpp), which decides on the contouring weight
 };

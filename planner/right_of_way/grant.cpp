@@ -53,14 +53,38 @@ class Grants {
     return ahead_m;
   }
 
+  /// The same of one that was last received with this claim, and may have moved since: for it the
+  /// places are free that it may have come to overlap, since it may be ahead of them.
+  [[nodiscard]] double reach_of_missing_m(coordination::LaneClaim claim, double moved_m,
+                                          double look_ahead_m) {
+    const double farthest_place_m = claim.place_m + std::min(claim.ahead_m, moved_m);
+    std::vector<std::size_t> under;
+    for (CellNumber cell = map_.count_at(claim.route, claim.place_m);
+         cell <= map_.count_at(claim.route, farthest_place_m); ++cell) {
+      under.push_back(map_.index_of(claim.route, cell));
+    }
+    std::vector<std::uint32_t> passed;
+    for (const std::size_t other : holders_of_overlapping(claim.route, under)) {
+      passed.push_back(place_of(other));
+    }
+    for (const std::uint32_t cell : passed) --num_holders_[cell];
+    claim.ahead_m = std::max(claim.ahead_m, moved_m);
+    const double end_m = reach_m(claim, look_ahead_m + moved_m);
+    for (const std::uint32_t cell : passed) ++num_holders_[cell];
+    return end_m;
+  }
+
   [[nodiscard]] const std::vector<double>& ahead_m() const { return ahead_m_; }
 
   [[nodiscard]] std::vector<VehicleId> withheld_by(std::size_t who) const {
     const std::size_t route = holders_[who].claim.route;
     const std::vector<std::size_t> next = next_stretch(who);
     std::vector<VehicleId> vehicles;
+    const std::vector<std::uint32_t> behind = places_behind(who);
     for (const std::size_t other : holders_of_overlapping(route, next)) {
-      if (other != who) vehicles.push_back(holders_[other].vehicle);
+      const bool is_behind =
+          held_by(other).size() == 1 && std::ranges::find(behind, place_of(other)) != behind.end();
+      if (other != who && !is_behind) vehicles.push_back(holders_[other].vehicle);
     }
     for (const Blocked& one : blocked_) {
       const auto blocks = [&](std::size_t cell) {
@@ -92,9 +116,9 @@ class Grants {
     const std::uint32_t own = place_of(who);
     for (std::size_t other = 0; other < holders_.size(); ++other) {
       const std::uint32_t cell = place_of(other);
-      if (other == who || num_until_clear_of(cell, who) == 0) continue;
-      const auto is_ahead = std::pair(num_until_clear_of(cell, who), holders_[who].vehicle) <
-                            std::pair(num_until_clear_of(own, other), holders_[other].vehicle);
+      if (other == who || !std::ranges::binary_search(overlaps_of(who, 0), cell)) continue;
+      const bool is_ahead = std::pair(way_past_m(cell, who), holders_[who].vehicle) <
+                            std::pair(way_past_m(own, other), holders_[other].vehicle);
       if (is_ahead) cells.push_back(cell);
     }
     return cells;
@@ -103,16 +127,18 @@ class Grants {
     const std::size_t route = holders_[who].claim.route;
     return map_.cell(route, map_.index_of(route, first_of(who)));
   }
-  /// How many cells the vehicle drives, from its place on, that overlap this one.
-  [[nodiscard]] std::size_t num_until_clear_of(std::uint32_t cell, std::size_t who) const {
+  /// Of the cell that is this far from the one at its place.
+  [[nodiscard]] std::span<const std::uint32_t> overlaps_of(std::size_t who, CellNumber on) const {
     const std::size_t route = holders_[who].claim.route;
-    std::size_t num = 0;
-    while (num < map_.num_cells(route) &&
-           std::ranges::binary_search(
-               map_.overlaps(route, map_.index_of(route, first_of(who) + CellNumber(num))), cell)) {
-      ++num;
-    }
-    return num;
+    return map_.overlaps(route, map_.index_of(route, first_of(who) + on));
+  }
+  /// How far the vehicle drives until it is in a cell that does not overlap this one.
+  [[nodiscard]] double way_past_m(std::uint32_t cell, std::size_t who) const {
+    const coordination::LaneClaim& claim = holders_[who].claim;
+    const auto whole_route = static_cast<CellNumber>(map_.num_cells(claim.route));
+    CellNumber on = 0;
+    while (on < whole_route && std::ranges::binary_search(overlaps_of(who, on), cell)) ++on;
+    return static_cast<double>(first_of(who) + on) * map_.cell_m(claim.route) - claim.place_m;
   }
   [[nodiscard]] CellNumber first_of(std::size_t who) const {
     const coordination::LaneClaim& claim = holders_[who].claim;
@@ -223,8 +249,7 @@ std::optional<std::vector<Holder>> cautious_grant(const ConflictMap& map,
   }
   for (const Missing& one : missing) {
     Holder& last = reaches.emplace_back(one.last);
-    last.claim.ahead_m = std::max(last.claim.ahead_m, one.moved_m);
-    last.claim.ahead_m = held.reach_m(last.claim, look_ahead_m + one.moved_m);
+    last.claim.ahead_m = held.reach_of_missing_m(last.claim, one.moved_m, look_ahead_m);
   }
   const auto who =
       static_cast<std::size_t>(std::ranges::find(reaches, own, &Holder::vehicle) - reaches.begin());

@@ -53,10 +53,10 @@ struct Missing {
 /// this step, whatever it has received, and the vehicle `own` with what it takes: cells outside of
 /// all that. None if no missing vehicle can change what `grant` gives to `own`: then it takes that.
 ///
-/// So no two vehicles hold overlapping cells, whatever is lost, unless their places overlap, which
-/// they do not by this rule. By induction, let none do as the step begins. The *reach* of a vehicle
+/// So no two vehicles hold overlapping cells, whatever is lost, but those whose places overlap
+/// already, of which one gets on. By induction, let no others do at first. The *reach* of a vehicle
 /// is what it may hold at the end of the step: the cells up to its look-ahead that none of those
-/// that were received holds.
+/// that were received holds, but at a place that it overlaps.
 /// * A vehicle takes cells in its reach only. So does a missing one: what it has taken since it was
 ///   last received was free when it took it, and those that were received hold theirs still, or
 ///   hold only cells behind it that it has left, up to `moved_m`.

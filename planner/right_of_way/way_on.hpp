@@ -36,7 +36,7 @@ struct Taken {
 /// possible after it as before. That nobody is stuck forever does not follow: only some of all
 /// orders of turns are tried, and turns end behind three stretches each.
 ///
-/// It takes from what was granted, so no two vehicles hold overlapping cells whatever each
+/// It takes from what was granted, so no two vehicles hold other overlapping cells whatever each
 /// controller has received. Others do not take what was declined before the next step, and come
 /// first then (LaneClaim::waiting_steps). Where the order does not put those that wait first, or
 /// with more than 30 vehicles, nobody declines.

@@ -129,21 +129,22 @@ bool replaces(const Placement& place, const Placement& best, const ReferencePath
 }
 
 /// The best of the nearest points of all segments of the path, in their order from `from_s_m` on.
-Placement best_place(const ReferencePath& path, const Pose& pose, std::optional<double> from_s_m) {
+/// @param scale  of the vehicle
+Placement best_place(const ReferencePath& path, const Pose& pose, std::optional<double> from_s_m,
+                     double scale) {
   Placement near_by{.distance_m = kInfinity};
   Placement elsewhere{.distance_m = kInfinity};
   const std::vector<double>& joints = path.joints_s_m();
   const std::size_t num_segments = joints.size() - 1;
-  const double s_m = from_s_m.value_or(0.0);
-  const double laps = path.is_closed() ? std::floor(s_m / path.length_m()) : 0.0;
+  double s_m = from_s_m.value_or(0.0);
+  if (path.is_closed()) s_m -= std::floor(s_m / path.length_m()) * path.length_m();
   const auto first = static_cast<std::size_t>(
-      std::upper_bound(joints.begin() + 1, joints.end() - 1, s_m - laps * path.length_m()) -
-      joints.begin() - 1);
+      std::upper_bound(joints.begin() + 1, joints.end() - 1, s_m) - joints.begin() - 1);
   for (std::size_t k = 0; k < num_segments; ++k) {
     const std::size_t i = (first + k) % num_segments;
     const bool is_behind = !path.is_closed() && i < first;
-    const double way_m = joints[i] - joints[first] + (i < first ? path.length_m() : 0.0);
-    Placement& best = from_s_m && (is_behind || way_m > kNearBy_m) ? elsewhere : near_by;
+    const double way_m = joints[i] - s_m + (i < first ? path.length_m() : 0.0);
+    Placement& best = from_s_m && (is_behind || way_m > scale * kNearBy_m) ? elsewhere : near_by;
     // Most segments are too far away, in any direction: none of their points is nearer than the
     // first by more than the length.
     const double from_first_m = (pose.position_m() - path.points_m()[i]).norm();
@@ -155,8 +156,8 @@ Placement best_place(const ReferencePath& path, const Pose& pose, std::optional<
                         .turned_rad = wrap_angle(pose.heading_rad - heading_rad)};
     if (replaces(one, best, path)) best = one;
   }
-  const bool is_elsewhere = placement_cost_m(elsewhere) < placement_cost_m(near_by) - kElsewhere_m;
-  return is_elsewhere ? elsewhere : near_by;
+  const double gain_m = placement_cost_m(near_by) - placement_cost_m(elsewhere);
+  return gain_m > scale * kElsewhere_m ? elsewhere : near_by;
 }
 
 }  // namespace
@@ -175,7 +176,7 @@ bool fits(const Placement& placement, const DrivableRoute& route) {
 
 Placement placement_on(const DrivableRoute& route, const Pose& pose, const Footprint& footprint,
                        std::optional<double> from_s_m) {
-  Placement placement = best_place(route.path, pose, from_s_m);
+  Placement placement = best_place(route.path, pose, from_s_m, scale_of(footprint));
   const ConvexPolygon area = footprint_area(footprint, pose);
   look_beyond(route, outline(area), placement);
   if (!route.corridor.bounds().empty()) {

@@ -59,7 +59,7 @@ inline constexpr double kFitsTurned_rad = 0.6;
 /// than once (reference_path.hpp), it is the first one, though another one may be better by up to
 /// kSameLane_m.
 ///
-/// A vehicle whose former place is known is on the first kNearBy_m from `from_s_m` on, unless a
+/// A vehicle whose former place is known is on a piece that begins within kNearBy_m, unless a
 /// place elsewhere is better by more than kElsewhere_m: someone has moved it. Where two lanes part
 /// a vehicle that stands askew fits the wrong one better, and a random tour drives that one, too,
 /// perhaps a hundred metres on; at the end of an open path it may fit the begin.
@@ -69,7 +69,7 @@ inline constexpr double kFitsTurned_rad = 0.6;
                                      const Footprint& footprint,
                                      std::optional<double> from_s_m = std::nullopt);
 
-/// About three cars' lengths and half a second's way.
+/// About five cars' lengths; as the next, of the lab's car, for others scale_of times as long.
 inline constexpr double kNearBy_m = 1.0;
 /// A lane's width.
 inline constexpr double kElsewhere_m = 0.15;

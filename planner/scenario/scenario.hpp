@@ -53,8 +53,8 @@ struct Scenario {
   std::size_t steps{};
   std::size_t horizon_steps{};
   double reference_speed_mps{};
-  double contouring_weight{};  ///< ControllerOptions
-  std::optional<double> held_up_contouring_weight{};
+  double contouring_weight{};                         ///< ControllerOptions
+  std::optional<double> held_up_contouring_weight{};  ///< none: the same
   Profile profile;
   controller::Rounds rounds{};
   /// Engine: the command line's, else the file's, else the profile's

@@ -58,7 +58,7 @@ struct ScenarioValues {
   std::size_t horizon_steps{};
   double reference_speed_mps{};
   double contouring_weight{};
-  std::optional<double> held_up_contouring_weight{};
+  std::optional<double> held_up_contouring_weight{};  ///< none: the same
   StrategyValues strategies{};
   coordination::PriorityRule priorities{};
   std::optional<controller::Rounds> rounds{};  ///< none: as the priorities need

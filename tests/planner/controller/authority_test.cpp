@@ -414,16 +414,21 @@ class GrantedRun {
   [[nodiscard]] std::size_t limited_plans() const { return limited_plans_; }
 
  private:
-  /// What a vehicle holds as a step begins reaches to the end of its plan at least.
+  /// What a vehicle holds as a step begins reaches to the end of its plan at least: cells that it
+  /// held in the last step, since none is granted in between.
   void check_end(const right_of_way::Holder& holder) const {
     const auto last = held_.find(holder.vehicle);
     if (last == held_.end()) return;
     const LaneClaim& claim = holder.claim;
-    const double beyond_m =
-        std::remainder(claim.place_m + claim.ahead_m - last->second.place_m - last->second.ahead_m,
-                       map_.length_m(claim.route));
-    // The bar lies 20 mm behind a car that stands at the end, and is 10 mm long.
-    EXPECT_LT(beyond_m, 0.031) << "vehicle " << int{holder.vehicle.value} << "'s plan ends there";
+    const auto end = [&](double place_m, double ahead_m) {
+      return map_.count_at(claim.route, place_m + ahead_m);
+    };
+    const auto laps = static_cast<std::int64_t>(map_.num_cells(claim.route));
+    const std::int64_t taken =
+        (end(claim.place_m, claim.ahead_m) - end(last->second.place_m, last->second.ahead_m)) %
+        laps;
+    EXPECT_TRUE(taken <= 0 || taken > laps / 2)
+        << "the plan of vehicle " << int{holder.vehicle.value} << " ends " << taken << " cells on";
   }
 
   void check(std::size_t i, const LaneClaim& claim, double ahead_m) {
@@ -487,7 +492,8 @@ TEST(AuthorityInTheLab, NoTwoVehiclesHoldTheSameRoadWhateverIsLost) {
         }
       }
     }
-    for (const auto& [vehicle, sum_m] : held_m) EXPECT_GT(sum_m, 40 * 0.2) << vehicle.value;
+    for (const auto& [vehicle, sum_m] : held_m)
+      EXPECT_GT(sum_m, 40 * 0.2) << vehicle.value << ", measured: 40 * 0.26 and more";
   }
 }
 

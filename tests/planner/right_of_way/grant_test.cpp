@@ -319,6 +319,27 @@ TEST(Grant, OfTwoVehiclesWhosePlacesOverlapTheOneAheadGetsOn) {
   }
 }
 
+TEST(CautiousGrant, AMissingVehicleMayHaveGotOnFromAPlaceThatOverlaps) {
+  const ConflictMap map({{loop_beside_lane(1.0), loop_beside_lane(-1.0)}}, kCar);
+  const Holder own{.vehicle = {1}, .claim = {.route = 1, .place_m = map.length_m(1) - 0.15}};
+  const Missing ahead{
+      .last = {.vehicle = {2}, .claim = {.route = 0, .place_m = map.length_m(0) - 0.05}},
+      .moved_m = 0.2};
+  const auto all = cautious_grant(map, {&own, 1}, {&ahead, 1}, {}, kLookAhead_m, {1});
+  ASSERT_TRUE(all.has_value());
+  EXPECT_GT(all->back().claim.ahead_m, kLookAhead_m) << "what it may hold";
+  EXPECT_EQ(all->front().claim.ahead_m, 0.0);
+}
+
+TEST(WithheldBy, AVehicleBehindWithholdsNothingWithItsPlace) {
+  const ConflictMap map({{loop_beside_lane(1.0), loop_beside_lane(-1.0)}}, kCar);
+  const std::array both{
+      Holder{.vehicle = {1}, .claim = {.route = 0, .place_m = map.length_m(0) - 0.05}},
+      Holder{.vehicle = {2}, .claim = {.route = 1, .place_m = map.length_m(1) - 0.15}}};
+  EXPECT_TRUE(withheld_by(map, both, {}, 0).empty());
+  EXPECT_EQ(withheld_by(map, both, {}, 1), std::vector<VehicleId>{{1}});
+}
+
 TEST(Grant, OfTwoVehiclesWhosePlacesOverlapAnywhereOneGetsOn) {
   const ConflictMap& map = *lab_cars().conflicts;
   std::size_t num_pairs = 0;

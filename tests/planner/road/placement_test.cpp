@@ -123,6 +123,18 @@ TEST(Placement, AVehicleThatStandsAskewWhereLanesPartStaysOnTheLaneThatItIsDrivi
   }
 }
 
+TEST(Placement, IsOnTheNextPieceOfALongPieceToo) {
+  for (const bool closed : {false, true}) {
+    const DrivableRoute ring{
+        .name = "ring",
+        .path = ReferencePath(
+            {Point(0.0, 0.0), Point(2.0, 0.0), Point(4.0, 0.0), Point(4.0, 4.0), Point(0.0, 4.0)},
+            closed),
+        .corridor = {}};
+    EXPECT_NEAR(placement_on(ring, {2.1, 0.0, 0.0}, kFootprint, 1.8).s_m, 2.1, 1e-9);
+  }
+}
+
 TEST(Placement, AVehicleMovedBackOverTheBeginOfAClosedPathIsAtItsEnd) {
   const DrivableRoute ring{
       .name = "ring",

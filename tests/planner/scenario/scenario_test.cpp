@@ -246,6 +246,13 @@ void expect_related(const Scenario& scenario) {
   }
 }
 
+TEST(ScenarioRightOfWay, TheWeightOfAHeldUpVehicleReachesItsController) {
+  Scenario scenario = read_scenario({.file = kFolder + "scenarios/lab_cars.yaml", .cars = 1});
+  EXPECT_EQ(make_controller(scenario, {1})->options().held_up_contouring_weight, std::nullopt);
+  scenario.held_up_contouring_weight = 70.0;
+  EXPECT_EQ(make_controller(scenario, {1})->options().held_up_contouring_weight, 70.0);
+}
+
 TEST(ScenarioRightOfWay, EveryRouteIsInTheConflictMapAlsoWhenTheVehiclesAreDrawnAgain) {
   const Scenario scenario = read_scenario({.file = kFolder + "scenarios/lab_cars.yaml", .cars = 5});
   expect_related(scenario);
