@@ -297,8 +297,8 @@ def grade_automaton(answer, given):
 
 # 4: ten cars through a crossing
 
-KEYS = ("contouring_weight", "coordination", "coupling", "horizon_steps", "priorities", "reference_rule",
-        "right_of_way", "right_of_way_order", "rounds")
+KEYS = ("contouring_weight", "coordination", "coupling", "held_up_contouring_weight", "horizon_steps", "priorities",
+        "reference_rule", "right_of_way", "right_of_way_order", "rounds")
 
 
 def grade_crossing(answer, given):

@@ -3,18 +3,19 @@
 Whoever stops in the crossing blocks it for all. VALUES replaces keys of the scenario `lab_cars`; their meaning is in
 launch_scripts/scenarios/README.md:
 
-    contouring_weight     how much more an error across the path counts than one along it
-    coordination          what a plan keeps clear of: cooperative or strict
-    coupling              who takes part in whose planning: reachable_areas or all
-    horizon_steps         how far a plan reaches
-    priorities            who plans first
-    reference_rule        how far apart the points are that a plan follows
-    right_of_way          whether cars give way where routes cross or merge
-    right_of_way_order    whose turn it is: longest_wait or nearest_end
-    rounds                how the plans of the others become known: sequential or two
+    contouring_weight            how much more an error across the path counts than one along it
+    coordination                 what a plan keeps clear of: cooperative or strict
+    coupling                     who takes part in whose planning: reachable_areas or all
+    held_up_contouring_weight    the first one, for a car that others hold up
+    horizon_steps                how far a plan reaches
+    priorities                   who plans first
+    reference_rule               how far apart the points are that a plan follows
+    right_of_way                 whether cars give way where routes cross or merge
+    right_of_way_order           whose turn it is: longest_wait or nearest_end
+    rounds                       how the plans of the others become known: sequential or two
 """
 
-VALUES = {"right_of_way": False, "contouring_weight": 0}
+VALUES = {"right_of_way": False, "contouring_weight": 0, "held_up_contouring_weight": 0}
 
 if __name__ == "__main__":
     import hlc

@@ -143,7 +143,7 @@ double Authority::end_s_m(double s_m) const {
   return s_m + std::max(0.0, claim_.ahead_m - moved_m);
 }
 
-bool Authority::is_before_bar(double at_s_m, double s_m) const {
+bool Authority::reaches(double at_s_m, double s_m) const {
   const double moved_m = std::remainder(s_m - claim_.place_m, map_->length_m(claim_.route));
   const double from_m = claim_.place_m + moved_m;
   return map_->count_at(claim_.route, from_m + at_s_m - s_m) <=

@@ -31,8 +31,8 @@ namespace hlc::controller {
 /// whatever the others hold or announce, no plan meets another's. It is never nearer than the end
 /// of the plan in force. Where the road is wider than the lane a search finds plans around the bar
 /// behind it, such as to get away from all places where a missing vehicle can be: they are dropped
-/// (`is_before_bar`), and the plan in force is driven on. A car that stands askew in a bend may
-/// reach into the bar behind the end; it then finds no plan until more is granted to it.
+/// (`reaches`), and the plan in force is driven on. A car that stands askew in a bend may reach
+/// into the bar behind the end; it then finds no plan until more is granted to it.
 class Authority {
  public:
   static constexpr std::uint32_t kPatience_steps = 25;
@@ -79,9 +79,9 @@ class Authority {
 
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.
   [[nodiscard]] double end_s_m(double s_m) const;
-  /// Whether a vehicle at arc length `at_s_m`, counted on from `s_m`, is in a cell up to the end's:
-  /// a plan that ends farther on would take a cell that was not granted.
-  [[nodiscard]] bool is_before_bar(double at_s_m, double s_m) const;
+  /// Whether arc length `at_s_m`, counted on from `s_m`, lies in a cell up to the end's: a plan
+  /// that ends farther on would take a cell that was not granted.
+  [[nodiscard]] bool reaches(double at_s_m, double s_m) const;
   /// An area across the lane behind the end, to be kept clear of.
   [[nodiscard]] ConvexPolygon bar_m(const RouteTracker& tracker, const Footprint& footprint) const;
 

@@ -69,7 +69,7 @@ bool Controller::find_candidate(const search::HorizonProblem& problem, std::size
 bool Controller::ends_where_permitted(const coordination::Plan& plan) const {
   const double end_m = end_s_m(plan, step_.next(), tracker_, reach_m());
   return ends_along_lane(plan, in_force_->base(), step_.next(), tracker_, reach_m()) &&
-         (step_.left_out.authority || authority_->is_before_bar(end_m, tracker_.s_m().value()));
+         (step_.left_out.authority || authority_->reaches(end_m, tracker_.s_m().value()));
 }
 
 /// The second plan replaces the first one also if it ends askew and is dropped then, and it is

@@ -30,7 +30,7 @@ struct Blocked {
 /// Places can overlap already: at a start, or at a merge that two vehicles have entered because
 /// messages were lost. Of two such vehicles neither would be granted anything, since each next cell
 /// overlaps the other's place. So the place of the one behind is free for the one that is ahead:
-/// that has fewer cells to drive until none overlaps the other's place, then the smaller id.
+/// that has less far to drive until it does not overlap the other's place, then the smaller id.
 ///
 /// A pure function of what all vehicles announced: controllers that received the same compute the
 /// same, without a further message. It never takes a cell from a vehicle. A controller that has not

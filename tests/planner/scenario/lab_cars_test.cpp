@@ -176,17 +176,17 @@ std::string error_of(const std::string& from, const std::string& to, const std::
 TEST(LabCars, MoreCarsThanFitAreRefusedWithHowManyDo) {
   EXPECT_EQ(error_of("cars: 20", "cars: 60"), "");
   EXPECT_THAT(error_of("cars: 20", "cars: 61"),
-              HasSubstr(".yaml:17: draw.cars = 61, must be in 1 ... 60: no more cars fit"));
+              HasSubstr(".yaml:18: draw.cars = 61, must be in 1 ... 60: no more cars fit"));
   EXPECT_THAT(error_of("cars: 20", "cars: 256"),
               HasSubstr("draw.cars = 256, must be a whole number >= 1 and <= 255"));
   // One loop of twelve lanelets.
   EXPECT_THAT(error_of("[path 9,", "[path 9, path 11, path 9]", "]"),
-              HasSubstr(".yaml:17: draw.cars = 20, must be in 1 ... 12: no more cars fit"));
+              HasSubstr(".yaml:18: draw.cars = 20, must be in 1 ... 12: no more cars fit"));
 }
 
 TEST(LabCars, UnknownRoutesAreNamedWithTheirPlaces) {
   EXPECT_THAT(error_of("[path 9,", "[path 99,"),
-              HasSubstr(".yaml:18: draw.routes[1] = path 99, must be the name of"));
+              HasSubstr(".yaml:19: draw.routes[1] = path 99, must be the name of"));
   EXPECT_THAT(error_of("of: loop 2, from: 10", "of: loop 9, from: 10"),
               HasSubstr("of = loop 9, must be the name of a closed route above"));
   EXPECT_THAT(error_of("of: loop 2, from: 10", "of: loop 2, from: 999"),
@@ -243,9 +243,13 @@ TEST(RandomRoutes, ACarDrivesRoundItsWholeRouteWithoutAStop) {
   const ScenarioVehicle& car = scenario.vehicles.front();
   rollout::Rollout rollout = rollout::make_rollout(scenario);
   std::vector<Point> positions_m;
+  bool was_fallback = false;
   for (int step = 0; step < 1800; ++step) {
     const std::vector<coordination::Report> reports = rollout.step();
-    ASSERT_NE(reports.front().status, coordination::StepStatus::kFallback) << step;
+    // A plan that ends askew is dropped (plan_end.hpp); the next one is not.
+    const bool is_fallback = reports.front().status == coordination::StepStatus::kFallback;
+    ASSERT_FALSE(was_fallback && is_fallback) << step;
+    was_fallback = is_fallback;
     positions_m.push_back(reports.front().planned_pose.position_m());
     if (step > 20) {
       ASSERT_GT((positions_m.back() - positions_m[positions_m.size() - 11]).norm(), 0.1) << step;
@@ -304,7 +308,7 @@ TEST(RandomRoutes, AStartWithoutAWayBackIsRefusedByItsLanelet) {
   choices.cars = 30;
   EXPECT_THAT([&] { static_cast<void>(read_scenario(choices)); },
               testing::ThrowsMessage<std::invalid_argument>(AllOf(
-                  HasSubstr(".yaml:18: draw.routes = (a list), must be starts for random routes: "),
+                  HasSubstr(".yaml:19: draw.routes = (a list), must be starts for random routes: "),
                   HasSubstr("no way leads back to lanelet 15"))));
 }
 
