@@ -1,12 +1,12 @@
 """Exercise 4: bring ten cars through the crossing in the middle of the lab's map.
 
 Whoever stops in the crossing blocks it for all. VALUES replaces keys of the scenario `lab_cars`; their meaning is in
-launch_scripts/scenarios/README.md:
+launch_scripts/scenarios/README.md. Each of the three that are given below stays as it is where VALUES leaves it out:
 
     contouring_weight            how much more an error across the path counts than one along it
     coordination                 what a plan keeps clear of: cooperative or strict
     coupling                     who takes part in whose planning: reachable_areas or all
-    held_up_contouring_weight    the first one, for a car that others hold up
+    held_up_contouring_weight    contouring_weight of a car that others hold up, with right of way
     horizon_steps                how far a plan reaches
     priorities                   who plans first
     reference_rule               how far apart the points are that a plan follows

@@ -1,7 +1,7 @@
 """Exercise 2: write a priority rule.
 
 Six cars drive on the lab's roads. Who plans later keeps clear of the plans of those before it, and a car makes room for
-those before it; right of way there is none. A bad order makes cars wait for those that cannot get away, for good.
+those before it; right of way there is none. A bad order makes cars wait for those that cannot get away.
 
 The rule is asked in every step, and must depend on the situation alone: every car has to get the same order.
 """

@@ -8,7 +8,8 @@ namespace hlc::controller {
 /// Most that a vehicle with right of way may stand askew in its lane. The cost of a plan knows
 /// positions only: a vehicle whose way is blocked would turn its front into the next lane to get
 /// some millimetres nearer to its reference, and from there it may have no way on, and nor have
-/// those behind it. In bends vehicles end turned by 0.16 rad, since braking straightens the wheels.
+/// those behind it. In bends vehicles end turned by up to 0.16 rad, where they straighten their
+/// wheels while they brake.
 inline constexpr double kMostTurned_rad = 0.25;
 
 /// Arc length of the place on the path where the plan ends, counted on from the tracker's.

@@ -65,7 +65,7 @@ class CourseTest(unittest.TestCase):
                 self.assertIn("\n".join(rows_of(exercise, grades)), table)
 
     def test_a_figure_that_is_missed_by_little_does_not_get_all_points(self):
-        values = 'VALUES = {"right_of_way": True, "contouring_weight": 150}\n'
+        values = 'VALUES = {"right_of_way": True, "contouring_weight": 150, "held_up_contouring_weight": 150}\n'
         done = graded("crossing", "--answer", self.written(values), "--json")
         self.assertEqual(done.returncode, 1, done.stderr)
         grade = json.loads(done.stdout)

@@ -34,6 +34,7 @@ void set_reference_speed(const SweepValue& value, scenario::Scenario& scenario) 
 
 void set_contouring_weight(const SweepValue& value, scenario::Scenario& scenario) {
   scenario.contouring_weight = value.number;
+  scenario.held_up_contouring_weight.reset();
 }
 
 void set_coordination(const SweepValue& value, scenario::Scenario& scenario) {

@@ -27,7 +27,7 @@ struct SweepValue {
 /// | `search`              | `branch_and_bound`, `best_first` (both optimal), `2022` (the        |
 /// |                       | authors' cost-to-go, inadmissible)                                  |
 /// | `reference_speed_mps` | > 0                                                                 |
-/// | `contouring_weight`   | 0 to 10 000: scenario key                                           |
+/// | `contouring_weight`   | 0 to 10 000: scenario key; also of held-up vehicles                 |
 /// | `drivable`            | `lanes`, `everywhere`: no lane bounds                               |
 /// | `acceleration_mps2`   | > 0: the automaton's limit                                          |
 /// | `steering_rate_radps` | > 0: the automaton's limit                                          |

@@ -248,9 +248,9 @@ void expect_related(const Scenario& scenario) {
 
 TEST(ScenarioRightOfWay, TheWeightOfAHeldUpVehicleReachesItsController) {
   Scenario scenario = read_scenario({.file = kFolder + "scenarios/lab_cars.yaml", .cars = 1});
+  EXPECT_EQ(make_controller(scenario, {1})->options().held_up_contouring_weight, 150.0);
+  scenario.held_up_contouring_weight.reset();
   EXPECT_EQ(make_controller(scenario, {1})->options().held_up_contouring_weight, std::nullopt);
-  scenario.held_up_contouring_weight = 70.0;
-  EXPECT_EQ(make_controller(scenario, {1})->options().held_up_contouring_weight, 70.0);
 }
 
 TEST(ScenarioRightOfWay, EveryRouteIsInTheConflictMapAlsoWhenTheVehiclesAreDrawnAgain) {

@@ -17,9 +17,9 @@ using testing::HasSubstr;
 const std::string kScenario =
     test::source_folder() + "/launch_scripts/scenarios/paper_red_alone.yaml";
 
-Sweep built_sweep(const std::string& rest) {
+Sweep built_sweep(const std::string& rest, const std::string& scenario = kScenario) {
   const test::TemporaryFolder folder;
-  test::put(folder / "sweep.yaml", "scenarios: [" + kScenario + "]\n" + rest);
+  test::put(folder / "sweep.yaml", "scenarios: [" + scenario + "]\n" + rest);
   Sweep sweep(read_sweep(folder / "sweep.yaml"));
   for (std::size_t i = 0; i < sweep.num_automata(); ++i) sweep.build(i);
   return sweep;
@@ -69,6 +69,16 @@ TEST(Sweep, OfTheFilesOwnSettingsDrivesAsThePlainCampaign) {
     EXPECT_EQ(one.figures.error_mean_mm, 1e3 * other.vehicles[0].reference_error_m->mean);
     EXPECT_EQ(one.figures.generated_max, other.vehicles[0].generated->max);
   }
+}
+
+TEST(Sweep, AContouringWeightIsAlsoThatOfHeldUpVehicles) {
+  const std::string lab_guest = test::source_folder() + "/launch_scripts/scenarios/lab_guest.yaml";
+  ASSERT_EQ(scenario::read_scenario({.file = lab_guest}).held_up_contouring_weight, 150.0);
+  const Sweep sweep =
+      built_sweep("subgraphs: [J2]\nsettings: {contouring_weight: [50]}", lab_guest);
+  const scenario::Scenario scenario = sweep.scenario_of(0);
+  EXPECT_EQ(scenario.contouring_weight, 50.0);
+  EXPECT_EQ(scenario.held_up_contouring_weight, std::nullopt);
 }
 
 TEST(Sweep, EverySettingReachesTheScenario) {
