@@ -299,9 +299,7 @@ def grade_automaton(answer, given):
 
 KEYS = ("contouring_weight", "coordination", "coupling", "held_up_contouring_weight", "horizon_steps", "priorities",
         "reference_rule", "right_of_way", "right_of_way_order", "rounds")
-
-
-WITHOUT_VALUES = {"right_of_way": False, "contouring_weight": 0, "held_up_contouring_weight": 0}
+GIVEN_VALUES = {"right_of_way": False, "contouring_weight": 0, "held_up_contouring_weight": 0}
 
 
 def grade_crossing(answer, given):
@@ -314,7 +312,7 @@ def grade_crossing(answer, given):
     runs = []
     for seed in (4, 5, 6):
         ten = called(answer, lambda seed=seed: hlc.load_scenario("lab_cars", cars=10, seed=seed, steps=600,
-                                                                 values=WITHOUT_VALUES | values))
+                                                                 values=GIVEN_VALUES | values))
         runs.append(called(answer, lambda ten=ten, seed=seed: driven(ten, given.out / f"draw_{seed}")))
     return [Figure("cars that are stuck at the end", "", stuck(runs), 20, 0, 4),
             Figure("mean speed", "m/s", mean_over_cars(runs, "driven_speed_mps", 0.0), 0.30, 0.70, 4),

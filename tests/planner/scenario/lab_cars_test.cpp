@@ -271,7 +271,7 @@ TEST(RandomRoutes, ACarDrivesRoundItsWholeRouteWithoutAStop) {
       ASSERT_GT((positions_m.back() - positions_m[positions_m.size() - 11]).norm(), 0.1) << step;
     }
   }
-  EXPECT_LE(num_askew, 9);
+  EXPECT_LE(num_askew, 1);
   const road::Progress progress = road::progress_along(car.path, positions_m);
   EXPECT_GT(progress.s_m.back() - progress.s_m.front(), car.path.length_m());
   EXPECT_LT(*std::ranges::max_element(progress.distance_m), 0.2);
