@@ -54,16 +54,9 @@ const ExplainedStep::Limit* named(const StepAnswers& answers, const std::string&
   return found == answers.limits.end() ? nullptr : &*found;
 }
 
-TEST(StepAnswers, WithoutALimitNoPlanCostsMoreAndOneThatStandsAtTheEndOfItsRoadGoesOn) {
-  const scenario::Scenario scenario = scenario::read_scenario(lab_cars());
-  std::set<std::string> that_cost;
-  std::size_t num_held = 0;
-  std::size_t num_askew = 0;  // on the road of others it finds a plan that ends askew in its lane
-  drive(scenario, {.steps = 20}, [&](const Seen& seen) {
-    const std::uint64_t step = seen.controller.last_step().value;
-    if (step % 5 != 0) return;
-    const StepAnswers answers =
-        answers_of(seen.controller, seen.chosen, seen.report, scenario.policy);
+/// The limits of several steps.
+struct CheckedLimits {
+  void check(const StepAnswers& answers) {
     for (const ExplainedStep::Limit& limit : answers.limits) {
       if (!limit.ahead_m && limit.name.starts_with("the end of its right of way")) {
         ++num_askew;
@@ -73,6 +66,22 @@ TEST(StepAnswers, WithoutALimitNoPlanCostsMoreAndOneThatStandsAtTheEndOfItsRoadG
       EXPECT_LE(*limit.extra_m2, 1e-9) << limit.name;
       if (*limit.extra_m2 < -1e-6) that_cost.insert(limit.name);
     }
+  }
+
+  std::set<std::string> that_cost;
+  std::size_t num_askew{};  ///< on the road of others it finds a plan that ends askew in its lane
+};
+
+TEST(StepAnswers, WithoutALimitNoPlanCostsMoreAndOneThatStandsAtTheEndOfItsRoadGoesOn) {
+  const scenario::Scenario scenario = scenario::read_scenario(lab_cars());
+  CheckedLimits checked;
+  std::size_t num_held = 0;
+  drive(scenario, {.steps = 20}, [&](const Seen& seen) {
+    const std::uint64_t step = seen.controller.last_step().value;
+    if (step % 5 != 0) return;
+    const StepAnswers answers =
+        answers_of(seen.controller, seen.chosen, seen.report, scenario.policy);
+    checked.check(answers);
     if (answers.alone) {
       EXPECT_LE(*answers.alone->extra_m2, 1e-9);
     }
@@ -85,10 +94,10 @@ TEST(StepAnswers, WithoutALimitNoPlanCostsMoreAndOneThatStandsAtTheEndOfItsRoadG
     if (!end->ahead_m) return;
     EXPECT_GE(*end->ahead_m, ahead_m(seen.controller)) << "vehicle " << seen.report.vehicle.value;
   });
-  EXPECT_THAT(that_cost,
+  EXPECT_THAT(checked.that_cost,
               testing::IsSupersetOf({"the lane boundary", "the end of its right of way"}));
   EXPECT_GT(num_held, 0U);
-  EXPECT_LE(num_askew, 2U);
+  EXPECT_LE(checked.num_askew, 2U);
 }
 
 TEST(StepAnswers, AnObstacleOfAForkCostsTheCarInFrontOfIt) {
