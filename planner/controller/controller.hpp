@@ -136,8 +136,7 @@ class Controller {
   /// Any time between the first phase and the third, while the owner waits for the others'
   /// messages: searches the former step's problem, updated as far as that is known without the
   /// messages, and drops the result. Changes nothing; but it fills the processor's caches with the
-  /// data of a search, which takes longer to fetch than most searches. Ends after 1024 expansions.
-  /// Returns how many there were.
+  /// data of a search, which takes longer to fetch than most. Returns the expansions, up to 1024.
   std::uint64_t warm_up();
   /// Second phase. `received` may hold messages of other steps and senders: they are ignored.
   /// @param shared  of all controllers that are stepped together
@@ -354,6 +353,7 @@ class Controller {
   void search_plan(search::HorizonProblem problem, std::size_t budget_share);
   [[nodiscard]] PlanWithout search_again(const LeftOut& left_out);
   [[nodiscard]] bool ends_where_permitted(const coordination::Plan& plan) const;
+  void find_nearer_end(const search::HorizonProblem& problem, std::size_t budget_share);
   void keep_in_lane_where_held_up(const search::HorizonProblem& problem, std::size_t budget_share);
   [[nodiscard]] bool makes_room_for(const CoupledVehicle& other) const;
   [[nodiscard]] bool make_room(const search::HorizonProblem& own);

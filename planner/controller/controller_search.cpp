@@ -1,5 +1,6 @@
 // What a controller searches in a step: the problems that it poses, and its candidate.
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
@@ -14,6 +15,17 @@ namespace {
 
 /// Costs are sums of squares of metres; rounding is far below.
 constexpr double kLeastGain_m2 = 1e-9;
+/// A plan that gets less far stands.
+constexpr double kStanding_m = 1e-3;
+/// Shares of the way to the end that is not permitted, at which the reference ends instead.
+constexpr std::array kNearerEnds{0.75, 0.5, 0.25, 0.1};
+/// Of the budget of a search, for the search of each.
+constexpr std::size_t kNearerEndShare = 4;
+
+bool moves(const coordination::Plan& plan, StepIndex next) {
+  const Pose end = plan.pose_at(std::max(plan.end(), next));
+  return (end.position_m() - plan.pose_at(next).position_m()).norm() > kStanding_m;
+}
 
 }  // namespace
 
@@ -59,10 +71,7 @@ bool Controller::find_candidate(const search::HorizonProblem& problem, std::size
   step_.cost_m2 = step_.report.cost_m2;
   if (!authority_ || !step_.candidate.plan) return step_.candidate.plan.has_value();
   keep_in_lane_where_held_up(problem, budget_share);
-  if (!ends_where_permitted(*step_.candidate.plan)) {
-    step_.candidate.plan.reset();
-    step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
-  }
+  if (!ends_where_permitted(*step_.candidate.plan)) find_nearer_end(problem, budget_share);
   return step_.candidate.plan.has_value();
 }
 
@@ -72,8 +81,31 @@ bool Controller::ends_where_permitted(const coordination::Plan& plan) const {
          (step_.left_out.authority || authority_->reaches(end_m, tracker_.s_m().value()));
 }
 
+/// With a reference that ends nearer, a plan gets less far around a bend, and ends elsewhere. It
+/// has to get farther than the plan in force, which is driven on otherwise.
+void Controller::find_nearer_end(const search::HorizonProblem& problem, std::size_t budget_share) {
+  const double s_m = tracker_.s_m().value();
+  const auto end_m = [&](const coordination::Plan& plan) {
+    return end_s_m(plan, step_.next(), tracker_, reach_m());
+  };
+  const double way_m = end_m(*step_.candidate.plan) - s_m;
+  const double least_m = end_m(in_force_->base()) + kStanding_m;
+  for (const double share : kNearerEnds) {
+    search_plan(
+        with_reference_of(problem, posed_alone({.s_m = s_m + share * way_m, .is_held_up = true})),
+        kNearerEndShare * budget_share);
+    const std::optional<coordination::Plan>& plan = step_.candidate.plan;
+    if (plan && end_m(*plan) > least_m && ends_where_permitted(*plan)) return;
+  }
+  step_.candidate.plan.reset();
+  step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
+}
+
 /// The second plan replaces the first one also if it ends askew and is dropped then, and it is
 /// searched also where the first search has used up its expansions: the first may leave the lane.
+/// But where it stands and the first one gets on to a permitted end, this one stays: a vehicle
+/// between a kerb and another one may get on a little in each step, though first across its lane,
+/// and the whole of its knot waits for it.
 void Controller::keep_in_lane_where_held_up(const search::HorizonProblem& problem,
                                             std::size_t budget_share) {
   const std::optional<double> held_up_m =
@@ -87,7 +119,11 @@ void Controller::keep_in_lane_where_held_up(const search::HorizonProblem& proble
   const auto num_first = static_cast<std::ptrdiff_t>(first.problems.size());
   coordination::Report report = step_.report;
   search_plan(std::move(within), budget_share);
-  if (step_.candidate.plan) return;
+  const std::optional<coordination::Plan>& second = step_.candidate.plan;
+  const bool only_first_moves = second && !moves(*second, step_.next()) &&
+                                moves(*first.plan, step_.next()) &&
+                                ends_where_permitted(*first.plan);
+  if (second && !only_first_moves) return;
   first.problems = std::move(step_.candidate.problems);
   const auto own = first.problems.begin() + num_first - 1;  // the last one is that of the plan
   std::rotate(own, own + 1, first.problems.end());

@@ -26,7 +26,8 @@ ConflictRules scaled(const ConflictRules& rules, double scale) {
           .same_place_m = scale * rules.same_place_m,
           .same_heading_rad = rules.same_heading_rad,
           .following_m = scale * rules.following_m,
-          .joined_m = scale * rules.joined_m};
+          .joined_m = scale * rules.joined_m,
+          .shares_conflicts = rules.shares_conflicts};
 }
 
 }  // namespace
@@ -49,7 +50,11 @@ ConflictMap::ConflictMap(std::span<const road::DrivableRoute> routes,
     std::ranges::sort(beside);
     relate(cell, beside, rules);
   }
-  for (Cell& cell : cells_) cell.lanes.clear();
+  if (rules.shares_conflicts) share_conflicts();
+  for (Cell& cell : cells_) {
+    cell.lanes.clear();
+    cell.same_place.clear();
+  }
 }
 
 std::int64_t ConflictMap::count_at(std::size_t route, double s_m) const {
@@ -129,23 +134,31 @@ void ConflictMap::add_lanes(std::size_t route, const ConflictRules& rules) {
 }
 
 void ConflictMap::relate(Cell& cell, const Numbers& near, const ConflictRules& rules) const {
-  Numbers same;
   for (const std::uint32_t number : near) {
     const Cell& other = cells_[number];
     const double apart_m = (cell.pose.position_m() - other.pose.position_m()).norm();
     const double turned_rad = wrap_angle(cell.pose.heading_rad - other.pose.heading_rad);
     if (apart_m < rules.same_place_m && std::abs(turned_rad) < rules.same_heading_rad) {
-      same.push_back(number);
+      cell.same_place.push_back(number);
     }
     if (intersects(cell.area_m, other.area_m)) cell.overlaps.push_back(number);
   }
   const auto leads_here = [&](const Numbers& lane) {
     return std::ranges::any_of(
-        same, [&](std::uint32_t one) { return std::ranges::binary_search(lane, one); });
+        cell.same_place, [&](std::uint32_t one) { return std::ranges::binary_search(lane, one); });
   };
   cell.is_conflict = std::ranges::any_of(cell.overlaps, [&](std::uint32_t other) {
     return !std::ranges::all_of(cells_[other].lanes, leads_here);
   });
+}
+
+void ConflictMap::share_conflicts() {
+  std::vector<bool> is_shared;
+  for (const Cell& cell : cells_) {
+    is_shared.push_back(std::ranges::any_of(
+        cell.same_place, [&](std::uint32_t one) { return cells_[one].is_conflict; }));
+  }
+  for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].is_conflict = is_shared[i];
 }
 
 }  // namespace hlc::right_of_way

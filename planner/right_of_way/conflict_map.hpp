@@ -31,10 +31,13 @@ struct ConflictRules {
   /// that one: for long routes that drive the same lanes many times. 0: never. Half a cell is
   /// enough; `along_m` has to contain it.
   double joined_m{0.0};
+  /// Cells in the same place as a conflict cell are conflict cells.
+  bool shares_conflicts{false};
 };
 
 /// For routes that drive each lane many times.
-inline constexpr ConflictRules kTours{.along_m = 0.030, .joined_m = 0.020};
+inline constexpr ConflictRules kTours{
+    .along_m = 0.030, .joined_m = 0.020, .shares_conflicts = true};
 
 /// Which pieces of closed routes cannot be occupied at the same time. Each route is cut into cells
 /// of equal length, of about ConflictRules::cell_m; a cell stands for the vehicle's place, its area
@@ -45,6 +48,11 @@ inline constexpr ConflictRules kTours{.along_m = 0.030, .joined_m = 0.020};
 /// there, or its own route farther on; where routes share a lane, a car only follows the other, and
 /// where a route drives a lane again, it follows itself. A vehicle that stands in a conflict cell
 /// may block vehicles that do not follow it: no authority (grant.hpp) ends there.
+///
+/// With ConflictRules::shares_conflicts a cell in the same place as a conflict cell of another
+/// route is one, too: vehicles of all routes that share a lane stop in the same places then. Else
+/// those of one route may stop one after another where a vehicle passes that joins their lane and
+/// can only stop farther on, and it never joins. Fewer places to stop make all of them slower.
 class ConflictMap {
  public:
   /// @pre every path is closed
@@ -91,6 +99,7 @@ class ConflictMap {
     Pose pose;  ///< on the driving line, heading of the path
     ConvexPolygon area_m;
     Numbers overlaps;
+    Numbers same_place;  ///< cells that share a lane with this one here, itself included
     bool is_conflict{};
     /// Cells before and behind this one on a route, up to ConflictRules::following_m; of each way
     /// to drive through it once.
@@ -102,6 +111,7 @@ class ConflictMap {
   [[nodiscard]] std::uint32_t joined(Cell cell, const ConflictRules& rules, NearPoints& near);
   void add_lanes(std::size_t route, const ConflictRules& rules);
   void relate(Cell& cell, const Numbers& near, const ConflictRules& rules) const;
+  void share_conflicts();
 
   std::vector<Cell> cells_;
   std::vector<Numbers> routes_;  ///< in the order of driving, not ascending

@@ -13,7 +13,7 @@ namespace hlc::right_of_way {
 struct Taken {
   double ahead_m{};  ///< end of its authority, from its place
   bool declines{};   ///< it takes less than was granted
-  /// Vehicles that would be stuck if it took more, and are not as it is; perhaps only itself.
+  /// Other vehicles that would be stuck if it took more, and are not as it is.
   std::vector<VehicleId> declined_for;
 
   friend bool operator==(const Taken&, const Taken&) = default;
@@ -23,13 +23,15 @@ struct Taken {
 ///
 /// Where lanes are full, vehicles wait for each other around a circle: each for the next one to
 /// leave its lane. So a vehicle *declines* to enter a stretch of conflict cells, and ends before
-/// it, if more vehicles would be in circles then, or, with as many, more would be stuck. This is
-/// counted for vehicles that stand at the ends of their authorities, and hold nothing but the cell
-/// there. They take turns: all close up along their lanes; then one passes its next stretch, to the
-/// first cell behind it, if all these cells are free. Stuck are those that have not passed the
-/// three stretches that were their next ones as the step began when no further turn is possible. In
-/// a circle are vehicles each of which has another one of them in its way once all have closed up:
-/// none of them ever moves again. Several orders of turns are tried (queues.hpp).
+/// it, if more vehicles would be in circles then, or, with as many, more others would be stuck. (A
+/// vehicle that declines for itself alone may do so in every step, and is stuck then.)
+///
+/// This is counted for vehicles that stand at the ends of their authorities, and hold nothing but
+/// the cell there. They take turns: all close up along their lanes; then one passes its next
+/// stretch, to the first cell behind it, if all these cells are free. Stuck are those that have not
+/// passed the three stretches that were their next ones as the step began when no further turn is
+/// possible. In a circle are vehicles each of which has another one of them in its way once all
+/// have closed up: none of them ever moves again. Several orders of turns are tried (queues.hpp).
 ///
 /// If all have received all, and nobody gives road back, entering closes no circle. Where a turn is
 /// possible, the vehicle whose turn is the first one does not decline it, since the other turns are

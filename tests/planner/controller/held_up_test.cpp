@@ -20,6 +20,11 @@ namespace {
 
 using right_of_way::lab_cars;
 
+const PreparedSubgraph& prepared() {
+  static const PreparedSubgraph kPrepared = scenario::prepare_subgraph_of(lab_cars());
+  return kPrepared;
+}
+
 /// A car of the lab that stands on its driving line, alone with what the second vehicle announces.
 class HeldUp {
  public:
@@ -76,10 +81,6 @@ class HeldUp {
   static constexpr std::uint32_t kFarRoute{0};
   inline static const ConvexPolygon kElsewhere{{{90, 90}, {91, 90}, {90, 91}}};
 
-  static const PreparedSubgraph& prepared() {
-    static const PreparedSubgraph kPrepared = scenario::prepare_subgraph_of(lab_cars());
-    return kPrepared;
-  }
   [[nodiscard]] coordination::MeasuredVehicle measured(const Pose& pose) const {
     return as_measured(own_, {.pose = pose}, controller_->subgraph().automaton());
   }
@@ -119,6 +120,40 @@ TEST(HeldUpCar, StaysInItsLaneBehindWhoeverReachesIntoIt) {
     EXPECT_LT(car.offset_m(), 0.030) << led_m;
   }
   EXPECT_GT(3 * num_held_up, num_cars) << num_held_up << " of " << num_cars;
+}
+
+/// Most of 300 such cars (seeds 0 to 299) never could: these do in one of their steps.
+TEST(HeldUpCar, CreepsIfOnlyTheFirstPlanGetsOn) {
+  const automaton::ReachableSets& reachable = *prepared().reachable;
+  std::size_t num_creeping = 0;
+  for (const std::uint64_t seed : {36U, 90U, 101U, 108U, 128U, 149U, 154U, 253U, 269U}) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    const auto uniform = [&](double from, double to) {
+      return std::uniform_real_distribution(from, to)(random);
+    };
+    const VehicleId vehicle{static_cast<std::uint8_t>(1 + random() % 20)};
+    const double place_m = uniform(1.0, 7.0);
+    HeldUp car(vehicle, place_m);
+    const double beside_m = uniform(-0.16, 0.16);
+    const ConvexPolygon area_m = intruder_m(car, place_m + uniform(0.2, 0.6), beside_m);
+    const auto led_m = [&](const SearchedProblem& searched) {
+      const auto engine = search::make_search_engine(*searched.subgraph, reachable,
+                                                     {.max_expansions = searched.max_expansions});
+      const search::SearchResult found = engine->search(searched.problem);
+      return (found.poses.back().position_m() - searched.problem.start.position_m()).norm();
+    };
+    for (int i = 0; i < 8; ++i) {
+      car.step(area_m);
+      const auto problems = car.controller().problems();
+      if (problems.size() != 2) continue;
+      const double other_m = led_m(problems[0]);
+      const double taken_m = led_m(problems[1]);
+      EXPECT_TRUE(other_m < 1e-3 || taken_m > 1e-3) << "it stands, and could lead " << other_m;
+      num_creeping += other_m < 1e-3 && taken_m > 1e-3 ? 1U : 0U;
+    }
+  }
+  EXPECT_GT(num_creeping, 5U) << "nothing was tried";
 }
 
 /// Standing at arc length s of a ring of 12.6 m.

@@ -223,6 +223,41 @@ TEST(ConflictMap, AlongASharedLaneThereAreNoConflictsButWhereTheRoutesMergeAndPa
   }
 }
 
+/// Shares half of the ring of 2 m with it, leaves it to the outside, and joins it again where the
+/// ring begins.
+road::DrivableRoute joins_the_ring() {
+  std::vector<Point> points_m;
+  for (int i = 0; i < 720; ++i) {
+    const double angle_rad = std::numbers::pi * i / 360.0;
+    const double outside_m = i < 360 ? 0.0 : 0.6 * std::pow(std::sin(angle_rad), 2);
+    points_m.push_back((2.0 + outside_m) * Point(std::cos(angle_rad), std::sin(angle_rad)));
+  }
+  return route_along(std::move(points_m));
+}
+
+// A car that joined a lane could stop only where its tail no longer reached into the lane beside.
+// Those of the lane stopped before that, one after another, and it never got through.
+TEST(ConflictMap, CarsStopInTheSamePlacesBehindAMergeWhereConflictsAreShared) {
+  const std::vector<road::DrivableRoute> routes{circle({0.0, 0.0}, 2.0), joins_the_ring(),
+                                                circle({0.0, 0.0}, 2.0 + kLane_m, -1.0)};
+  const auto last_conflict_rad = [](const ConflictMap& map, std::size_t route) {
+    double last_rad = -1.0;
+    for (std::size_t cell = 0; cell < map.num_cells(route); ++cell) {
+      const Point place_m = map.place_m(route, cell);
+      const double angle_rad = std::atan2(place_m.y(), place_m.x());
+      if (std::abs(angle_rad) > 1.0 || !map.is_conflict(route, cell)) continue;
+      last_rad = std::max(last_rad, angle_rad);
+    }
+    return last_rad;
+  };
+  const ConflictMap map(routes, kCar);
+  const double joined_rad = last_conflict_rad(map, 1);
+  EXPECT_LT(last_conflict_rad(map, 0), joined_rad - 0.1) << "its tail reaches into the lane beside";
+  const ConflictMap shared(routes, kCar, {.shares_conflicts = true});
+  EXPECT_NEAR(last_conflict_rad(shared, 1), joined_rad, 1e-9);
+  EXPECT_NEAR(last_conflict_rad(shared, 0), joined_rad, shared.cell_m(0) / 2.0);
+}
+
 TEST(ConflictMap, TheSameLaneInTheOtherDirectionIsAConflictAllAlong) {
   const ConflictMap map({{circle({0.0, 0.0}, 1.0), circle({0.0, 0.0}, 1.0, -1.0)}}, kCar);
   EXPECT_EQ(num_conflicts(map, 0), map.num_cells(0));
