@@ -31,8 +31,8 @@ namespace hlc::controller {
 /// whatever the others hold or announce, no plan meets another's. It is never nearer than the end
 /// of the plan in force. Where the road is wider than the lane a search finds plans around the bar
 /// behind it, such as to get away from all places where a missing vehicle can be: they are dropped
-/// (`reaches`), and the plan in force is driven on. A car that stands askew in a bend may reach
-/// into the bar behind the end; it then finds no plan until more is granted to it.
+/// (`reaches`), for one that ends nearer or the plan in force. A car that stands askew in a bend
+/// may reach into the bar behind the end; it then finds no plan until more is granted to it.
 class Authority {
  public:
   static constexpr std::uint32_t kPatience_steps = 25;

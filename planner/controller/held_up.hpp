@@ -18,7 +18,8 @@ inline constexpr double kHeldUp_m = 0.1;
 /// there. For a vehicle that is held up before a bend this is along its own lane, so it would leave
 /// the lane to lower the cost, and block the next one. Its reference has to end where it can get to
 /// (`with_reference_of` a problem that is posed up to there); a second search then finds a plan
-/// that gets about as far and stays in the lane.
+/// that gets about as far and stays in the lane. If that plan stands and the first one moves, the
+/// first one is kept: a vehicle in a narrow gap may get out of it a little in each step.
 /// @param next     the plan is known from t(next) on
 /// @param tracker  has selected a route
 /// @param reach_m  as for RouteTracker::project

@@ -27,8 +27,9 @@ inline constexpr double kMostTurned_rad = 0.25;
 /// Whether the candidate ends turned by at most kMostTurned_rad, or by no more than the plan in
 /// force (a vehicle that stands askew already may straighten in several plans). The plan in force
 /// itself satisfies this, so it stays a plan to fall back on, and a plan that does not can be
-/// dropped. No exception for plans that lead on: the vehicle drives to the end of one where
-/// messages are lost.
+/// dropped. In its place the controller searches plans whose references end nearer, because from
+/// some places in bends each optimal plan with few trims ends askew. No exception for plans that
+/// lead on: the vehicle drives to the end of one where messages are lost.
 /// @param next  from t(next) on the candidate would be driven
 [[nodiscard]] bool ends_along_lane(const coordination::Plan& candidate,
                                    const coordination::Plan& in_force, StepIndex next,

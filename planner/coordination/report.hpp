@@ -22,8 +22,8 @@ enum class StepStatus : std::uint8_t {
 
 enum class FallbackReason : std::uint8_t {
   kNone,
-  /// The search found that no plan exists, or, with right of way, its plan ends askew in the lane
-  /// (planner/controller/plan_end.hpp) or beyond the authority.
+  /// The search found that no plan exists, or, with right of way, all plans that it found end askew
+  /// in the lane (planner/controller/plan_end.hpp) or beyond the authority.
   kInfeasible,
   /// The search exhausted its expansions before it found a plan; or, for a standing vehicle, the
   /// search of a way into its lanes (lane_entry.hpp) did so when it departed.
