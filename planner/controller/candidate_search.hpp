@@ -34,8 +34,8 @@ struct PlanCandidate {
   std::optional<coordination::Plan> plan;  ///< none: see `obstacle`
   coordination::OccupiedAreas areas;       ///< of the plan from t(k+1) on
   coordination::FallbackReason obstacle{coordination::FallbackReason::kNone};
-  /// What was searched, in order: two if the first plan would have drifted into something, after a
-  /// switch perhaps more.
+  /// What was searched, that of the plan last: more than one where the first plan would have
+  /// drifted into something, is held up or ends askew, where room is made, and after a switch.
   std::vector<SearchedProblem> problems;
 };
 

@@ -136,7 +136,7 @@ class Controller {
   /// Any time between the first phase and the third, while the owner waits for the others'
   /// messages: searches the former step's problem, updated as far as that is known without the
   /// messages, and drops the result. Changes nothing; but it fills the processor's caches with the
-  /// data of a search, which takes longer to fetch than most. Returns the expansions, up to 1024.
+  /// data of a search, which take longer to fetch than most searches. Returns <= 1024 expansions.
   std::uint64_t warm_up();
   /// Second phase. `received` may hold messages of other steps and senders: they are ignored.
   /// @param shared  of all controllers that are stepped together
@@ -161,7 +161,7 @@ class Controller {
   void keep_plan(std::shared_ptr<const Coupled> before);
   /// Only the current subgraph may be planned on.
   [[nodiscard]] bool is_settled() const { return search_.is_settled(); }
-  /// What the plan of the third phase costs, for the whole reference; none if there is no new plan.
+  /// Cost of the first plan that the third phase found; none if there is no new plan.
   [[nodiscard]] std::optional<double> planned_cost_m2() const {
     return step_.candidate.plan ? std::optional(step_.cost_m2) : std::nullopt;
   }
@@ -301,10 +301,10 @@ class Controller {
     std::map<VehicleId, std::shared_ptr<const coordination::Prediction>> awaited;
     PlanCandidate candidate;
     double cost_m2{};  ///< of the candidate's first search, with the whole reference
-    coordination::Prediction prediction;  ///< own; of a candidate its areas, from t(k+1) on
-    std::vector<VehicleId> opposed;       ///< voted against the plan, or did not vote
-    coordination::FallbackReason obstacle{
-        coordination::FallbackReason::kNone};  ///< why nothing new may be planned
+    coordination::Prediction prediction;      ///< own; of a candidate its areas, from t(k+1) on
+    std::vector<VehicleId> opposed;           ///< voted against the plan, or did not vote
+    coordination::FallbackReason obstacle{};  ///< why nothing new may be planned
+    std::optional<double> former_end_s_m;     ///< of the plan in force as `plan` began
     bool is_vehicle_lost{};
     bool is_vehicle_elsewhere{};
     bool is_disturbed{};                         ///< DeviationCheck

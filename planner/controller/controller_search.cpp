@@ -15,16 +15,23 @@ namespace {
 
 /// Costs are sums of squares of metres; rounding is far below.
 constexpr double kLeastGain_m2 = 1e-9;
-/// A plan that gets less far stands.
+/// A plan that gets less far stands; one that gets so much farther than another one is a gain.
 constexpr double kStanding_m = 1e-3;
 /// Shares of the way to the end that is not permitted, at which the reference ends instead.
 constexpr std::array kNearerEnds{0.75, 0.5, 0.25, 0.1};
-/// Of the budget of a search, for the search of each.
+/// The search of each may use one expansion in so many of those that a search may use.
 constexpr std::size_t kNearerEndShare = 4;
 
 bool moves(const coordination::Plan& plan, StepIndex next) {
   const Pose end = plan.pose_at(std::max(plan.end(), next));
   return (end.position_m() - plan.pose_at(next).position_m()).norm() > kStanding_m;
+}
+
+/// Those of a plan found before, and the counts of all searches since.
+void take_figures(coordination::Report of_plan, coordination::Report& report) {
+  of_plan.generated = report.generated;
+  of_plan.expanded = report.expanded;
+  report = std::move(of_plan);
 }
 
 }  // namespace
@@ -62,6 +69,9 @@ search::HorizonProblem Controller::pose_problem(CoupledObstacleRule rule) const 
 
 void Controller::search_candidate() {
   const search::HorizonProblem own = pose_problem(options_.strategies.coordination.obstacles);
+  if (authority_ && !step_.former_end_s_m) {
+    step_.former_end_s_m = end_s_m(in_force_->base(), step_.next(), tracker_, reach_m());
+  }
   if (!make_room(own)) find_candidate(own, 1);
   step_.obstacle = step_.candidate.obstacle;
 }
@@ -82,26 +92,29 @@ bool Controller::ends_where_permitted(const coordination::Plan& plan) const {
 }
 
 /// With a reference that ends nearer, a plan gets less far around a bend, and ends elsewhere. It
-/// has to get farther than the plan in force, which is driven on otherwise.
+/// has to get farther than the former plan, which is driven on otherwise. Without one the report
+/// keeps the figures of the plan that is dropped.
 void Controller::find_nearer_end(const search::HorizonProblem& problem, std::size_t budget_share) {
-  const double s_m = tracker_.s_m().value();
   const auto end_m = [&](const coordination::Plan& plan) {
     return end_s_m(plan, step_.next(), tracker_, reach_m());
   };
+  const double s_m = tracker_.s_m().value();
   const double way_m = end_m(*step_.candidate.plan) - s_m;
-  const double least_m = end_m(in_force_->base()) + kStanding_m;
+  coordination::Report report = step_.report;
   for (const double share : kNearerEnds) {
     search_plan(
         with_reference_of(problem, posed_alone({.s_m = s_m + share * way_m, .is_held_up = true})),
         kNearerEndShare * budget_share);
     const std::optional<coordination::Plan>& plan = step_.candidate.plan;
-    if (plan && end_m(*plan) > least_m && ends_where_permitted(*plan)) return;
+    const bool gets_farther = plan && end_m(*plan) > step_.former_end_s_m.value() + kStanding_m;
+    if (gets_farther && ends_where_permitted(*plan)) return;
   }
+  take_figures(std::move(report), step_.report);
   step_.candidate.plan.reset();
   step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
 }
 
-/// The second plan replaces the first one also if it ends askew and is dropped then, and it is
+/// The second plan replaces the first one also if it ends askew, and it is
 /// searched also where the first search has used up its expansions: the first may leave the lane.
 /// But where it stands and the first one gets on to a permitted end, this one stays: a vehicle
 /// between a kerb and another one may get on a little in each step, though first across its lane,
@@ -128,9 +141,7 @@ void Controller::keep_in_lane_where_held_up(const search::HorizonProblem& proble
   const auto own = first.problems.begin() + num_first - 1;  // the last one is that of the plan
   std::rotate(own, own + 1, first.problems.end());
   step_.candidate = std::move(first);
-  report.generated = step_.report.generated;
-  report.expanded = step_.report.expanded;
-  step_.report = std::move(report);
+  take_figures(std::move(report), step_.report);
 }
 
 /// The problems of former searches stay.

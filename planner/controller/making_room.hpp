@@ -38,8 +38,8 @@ void desired_plans_of_predecessors(const CoupledVehicle& other, StepIndex step,
                                    std::vector<ConvexPolygon>& areas_m);
 
 /// A search for a desired plan, or for a plan that makes room, may use one expansion in eight of
-/// those that a search may use: three of them in a step. The vertices of the desired plan's search
-/// are not counted in reports.
+/// those that a search may use: three of them in a step, and with right of way once more for a plan
+/// that is held up. The vertices of the desired plan's search are not counted in reports.
 inline constexpr std::size_t kMakingRoomShare = 8;
 
 /// The problem with one more obstacle for each desired plan, during its steps from `from` on (0:

@@ -13,9 +13,9 @@ namespace hlc::controller {
 
 /// Where a vehicle's reference ends.
 struct ReferenceEnd {
-  /// Arc length; no point lies beyond. The end of its authority, or where it is held up.
+  /// Arc length; no point lies beyond. The end of its authority, or nearer (plan_end.hpp).
   double s_m{std::numeric_limits<double>::infinity()};
-  bool is_held_up{};  ///< it gets only there (held_up.hpp), which decides on the contouring weight
+  bool is_held_up{};  ///< it gets only there (held_up.hpp), or is to: with that contouring weight
 };
 
 /// The reference points that the vehicle has when its plan begins at the pose announced in its

@@ -22,8 +22,8 @@ enum class StepStatus : std::uint8_t {
 
 enum class FallbackReason : std::uint8_t {
   kNone,
-  /// The search found that no plan exists, or, with right of way, all plans that it found end askew
-  /// in the lane (planner/controller/plan_end.hpp) or beyond the authority.
+  /// The search found that no plan exists, or, with right of way, its plan ends askew in the lane
+  /// or beyond the authority, and none gets far that ends nearer (planner/controller/plan_end.hpp).
   kInfeasible,
   /// The search exhausted its expansions before it found a plan; or, for a standing vehicle, the
   /// search of a way into its lanes (lane_entry.hpp) did so when it departed.
@@ -80,7 +80,7 @@ struct Report {
   /// that the controller plans on.
   std::string subgraph;
   /// Of the plan found in this step, for the reference of the search that found it: for a vehicle
-  /// that is held up with right of way, one that ends where it can get to; 0 if none.
+  /// that is held up with right of way, one that ends where it gets to, or nearer; 0 if none.
   double cost_m2{};
   PlanQuality quality{PlanQuality::kNone};
   double gap_m2{};  ///< of that plan: its cost minus a lower bound of every plan's; or 0

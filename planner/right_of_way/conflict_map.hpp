@@ -31,7 +31,7 @@ struct ConflictRules {
   /// that one: for long routes that drive the same lanes many times. 0: never. Half a cell is
   /// enough; `along_m` has to contain it.
   double joined_m{0.0};
-  /// Cells in the same place as a conflict cell are conflict cells.
+  /// Cells in the same place as a conflict cell are conflict cells, too.
   bool shares_conflicts{false};
 };
 
@@ -49,10 +49,11 @@ inline constexpr ConflictRules kTours{
 /// where a route drives a lane again, it follows itself. A vehicle that stands in a conflict cell
 /// may block vehicles that do not follow it: no authority (grant.hpp) ends there.
 ///
-/// With ConflictRules::shares_conflicts a cell in the same place as a conflict cell of another
-/// route is one, too: vehicles of all routes that share a lane stop in the same places then. Else
-/// those of one route may stop one after another where a vehicle passes that joins their lane and
-/// can only stop farther on, and it never joins. Fewer places to stop make all of them slower.
+/// With ConflictRules::shares_conflicts a cell in the same place as a conflict cell is one, too (as
+/// one that is a conflict cell by the rule above, of any route): vehicles of all routes that share
+/// a lane stop in the same places then. Else those of one route may stop one after another where a
+/// vehicle passes that joins their lane and can only stop farther on, and it never joins. Fewer
+/// places to stop make all of them slower.
 class ConflictMap {
  public:
   /// @pre every path is closed
