@@ -40,12 +40,6 @@ struct Judged {
     return std::pair(num_in_circles, stuck.size()) >
            std::pair(other.num_in_circles, other.stuck.size());
   }
-
-  [[nodiscard]] Judged without(std::size_t who) const {
-    Judged others = *this;
-    std::erase(others.stuck, who);
-    return others;
-  }
 };
 
 Judged judged(const Queues& queues) {
@@ -100,7 +94,7 @@ std::vector<Taken> leave_a_way_on(const ConflictMap& map, std::span<const Holder
     for (std::size_t i = 1; i < ends_m[who].size(); ++i) {
       ends[who].ahead_m = ends_m[who][i];
       Judged then = judged({map, ends, before, blocked});
-      if (then.without(who).is_worse_than(best)) {
+      if (then.is_worse_than(best)) {
         decline(who, ends_m[who][i - 1], holders, best.stuck, then.stuck, taken);
         break;
       }

@@ -13,7 +13,7 @@ namespace hlc::right_of_way {
 struct Taken {
   double ahead_m{};  ///< end of its authority, from its place
   bool declines{};   ///< it takes less than was granted
-  /// Others that would be stuck if it took more and are not as it is; none: a circle would close.
+  /// Others that would be stuck if it took more and are not as it is; none: it itself would be.
   std::vector<VehicleId> declined_for;
 
   friend bool operator==(const Taken&, const Taken&) = default;
@@ -23,8 +23,8 @@ struct Taken {
 ///
 /// Where lanes are full, vehicles wait for each other around a circle: each for the next one to
 /// leave its lane. So a vehicle *declines* to enter a stretch of conflict cells, and ends before
-/// it, if more vehicles would be in circles then, or, with as many, more others would be stuck than
-/// vehicles are without. (One that declined for itself alone might do so in every step.)
+/// it, if more vehicles would be in circles then, or, with as many, more would be stuck, of which
+/// it may be the only one.
 ///
 /// This is counted for vehicles that stand at the ends of their authorities, and hold nothing but
 /// the cell there. They take turns: all close up along their lanes; then one passes its next
