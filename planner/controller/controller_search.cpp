@@ -114,11 +114,10 @@ void Controller::find_nearer_end(const search::HorizonProblem& problem, std::siz
   step_.candidate.obstacle = coordination::FallbackReason::kInfeasible;
 }
 
-/// The second plan replaces the first one also if it ends askew, and it is
-/// searched also where the first search has used up its expansions: the first may leave the lane.
-/// But where it stands and the first one gets on to a permitted end, this one stays: a vehicle
-/// between a kerb and another one may get on a little in each step, though first across its lane,
-/// and the whole of its knot waits for it.
+/// The second plan replaces the first one also if it ends askew, and it is searched also where the
+/// first search has used up its expansions: the first may leave the lane. But where it stands and
+/// the first one gets on to a permitted end, this one stays: a vehicle between a kerb and another
+/// one may get on a little in each step, though first across its lane, and its knot waits for it.
 void Controller::keep_in_lane_where_held_up(const search::HorizonProblem& problem,
                                             std::size_t budget_share) {
   const std::optional<double> held_up_m =

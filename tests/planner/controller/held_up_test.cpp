@@ -99,19 +99,32 @@ ConvexPolygon intruder_m(const HeldUp& car, double s_m, double beside_m) {
                         {centre_m.x(), centre_m.y(), std::atan2(along.y(), along.x())}, 0.01);
 }
 
+/// A car of the lab and a place on its route, by seed.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random_(seed) {}
+
+  double uniform(double from, double to) {
+    return std::uniform_real_distribution(from, to)(random_);
+  }
+  VehicleId vehicle() { return {static_cast<std::uint8_t>(1 + random_() % 20)}; }
+  double place_m() { return uniform(1.0, 7.0); }
+
+ private:
+  std::mt19937_64 random_;
+};
+
 TEST(HeldUpCar, StaysInItsLaneBehindWhoeverReachesIntoIt) {
   const std::uint64_t num_cars = test::num_costly_seeds(30);
   std::uint64_t num_held_up = 0;
   for (std::uint64_t seed = 0; seed < num_cars; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    std::mt19937_64 random(seed);
-    const auto uniform = [&](double from, double to) {
-      return std::uniform_real_distribution(from, to)(random);
-    };
-    const VehicleId vehicle{static_cast<std::uint8_t>(1 + random() % 20)};
-    const double place_m = uniform(1.0, 7.0);
+    Draw draw(seed);
+    const VehicleId vehicle = draw.vehicle();
+    const double place_m = draw.place_m();
     HeldUp car(vehicle, place_m);
-    const ConvexPolygon area_m = intruder_m(car, place_m + uniform(0.4, 0.6), uniform(-0.06, 0.06));
+    const ConvexPolygon area_m =
+        intruder_m(car, place_m + draw.uniform(0.4, 0.6), draw.uniform(-0.06, 0.06));
     const Point start_m = car.controller().plan_in_force().pose_at({100}).position_m();
     for (int i = 0; i < 6; ++i) car.step(area_m);
     const double led_m = (car.end().position_m() - start_m).norm();
@@ -128,15 +141,12 @@ TEST(HeldUpCar, CreepsIfOnlyTheFirstPlanGetsOn) {
   std::size_t num_creeping = 0;
   for (const std::uint64_t seed : {36U, 90U, 101U, 108U, 128U, 149U, 154U, 253U, 269U}) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    std::mt19937_64 random(seed);
-    const auto uniform = [&](double from, double to) {
-      return std::uniform_real_distribution(from, to)(random);
-    };
-    const VehicleId vehicle{static_cast<std::uint8_t>(1 + random() % 20)};
-    const double place_m = uniform(1.0, 7.0);
+    Draw draw(seed);
+    const VehicleId vehicle = draw.vehicle();
+    const double place_m = draw.place_m();
     HeldUp car(vehicle, place_m);
-    const double beside_m = uniform(-0.16, 0.16);
-    const ConvexPolygon area_m = intruder_m(car, place_m + uniform(0.2, 0.6), beside_m);
+    const double beside_m = draw.uniform(-0.16, 0.16);
+    const ConvexPolygon area_m = intruder_m(car, place_m + draw.uniform(0.2, 0.6), beside_m);
     const auto led_m = [&](const SearchedProblem& searched) {
       const auto engine = search::make_search_engine(*searched.subgraph, reachable,
                                                      {.max_expansions = searched.max_expansions});
