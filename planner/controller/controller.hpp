@@ -352,7 +352,7 @@ class Controller {
   bool find_candidate(const search::HorizonProblem& problem, std::size_t budget_share);
   void search_plan(search::HorizonProblem problem, std::size_t budget_share);
   [[nodiscard]] PlanWithout search_again(const LeftOut& left_out);
-  [[nodiscard]] bool ends_where_permitted(const coordination::Plan& plan) const;
+  bool ends_where_permitted(const coordination::Plan& plan, const search::HorizonProblem& in);
   void find_nearer_end(const search::HorizonProblem& problem, std::size_t budget_share);
   void keep_in_lane_where_held_up(const search::HorizonProblem& problem, std::size_t budget_share);
   [[nodiscard]] bool makes_room_for(const CoupledVehicle& other) const;

@@ -178,6 +178,7 @@ std::uint64_t digest_of(const ControllerOptions& options) {
   hash.add(options.deviation.tolerated_drift_share);
   hash.add(std::uint64_t{options.conflicts != nullptr});
   if (options.conflicts) {
+    hash.add(options.conflicts->stopping_room_m());
     for (std::size_t route = 0; route < options.conflicts->num_routes(); ++route) {
       hash.add(options.conflicts->length_m(route));
       hash.add(std::uint64_t{options.conflicts->num_cells(route)});

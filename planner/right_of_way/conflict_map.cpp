@@ -27,7 +27,8 @@ ConflictRules scaled(const ConflictRules& rules, double scale) {
           .same_heading_rad = rules.same_heading_rad,
           .following_m = scale * rules.following_m,
           .joined_m = scale * rules.joined_m,
-          .shares_conflicts = rules.shares_conflicts};
+          .shares_conflicts = rules.shares_conflicts,
+          .stopping_room_m = scale * rules.stopping_room_m};
 }
 
 }  // namespace
@@ -37,9 +38,11 @@ ConflictMap::ConflictMap(std::span<const road::DrivableRoute> routes,
                          const ConflictRules& for_the_ucar)
     : scale_(scale_of(vehicle.footprint)) {
   const ConflictRules rules = scaled(for_the_ucar, scale_);
-  reach_of_area_m_ = std::hypot(vehicle.footprint.length_m + 2.0 * rules.along_m,
-                                vehicle.footprint.width_m + 2.0 * rules.across_m) /
-                     2.0;
+  stopping_room_m_ = rules.stopping_room_m;
+  reach_of_area_m_ =
+      std::hypot(vehicle.footprint.length_m + 2.0 * rules.along_m,
+                 vehicle.footprint.width_m + 2.0 * (rules.across_m + rules.stopping_room_m)) /
+      2.0;
   NearPoints near(2.0 * reach_of_area_m_);
   for (const road::DrivableRoute& route : routes) add_route(route, vehicle, rules, near);
   for (std::size_t route = 0; route < routes_.size(); ++route) add_lanes(route, rules);
@@ -54,6 +57,7 @@ ConflictMap::ConflictMap(std::span<const road::DrivableRoute> routes,
   for (Cell& cell : cells_) {
     cell.lanes.clear();
     cell.same_place.clear();
+    cell.stopping_area_m = {};
   }
 }
 
@@ -74,6 +78,7 @@ void ConflictMap::add_route(const road::DrivableRoute& route,
   const auto count = static_cast<std::size_t>(std::max(1.0, std::round(length_m / rules.cell_m)));
   const Footprint footprint{vehicle.footprint.length_m + 2.0 * rules.along_m,
                             vehicle.footprint.width_m + 2.0 * rules.across_m};
+  const Footprint stopping{footprint.length_m, footprint.width_m + 2.0 * rules.stopping_room_m};
   Numbers cells;
   for (std::size_t i = 0; i < count; ++i) {
     const double s_m = length_m * static_cast<double>(i) / static_cast<double>(count);
@@ -84,8 +89,10 @@ void ConflictMap::add_route(const road::DrivableRoute& route,
                         road::chord_curvature_per_m(route.path, s_m, scale_ * kCurvatureChord_m);
     Pose turned = pose;
     turned.heading_rad -= std::asin(std::clamp(slip, -kMostSlip, kMostSlip));
-    cells.push_back(
-        joined({.pose = pose, .area_m = footprint_area(footprint, turned)}, rules, near));
+    cells.push_back(joined({.pose = pose,
+                            .area_m = footprint_area(footprint, turned),
+                            .stopping_area_m = footprint_area(stopping, turned)},
+                           rules, near));
   }
   routes_.push_back(std::move(cells));
   lengths_m_.push_back(length_m);
@@ -147,8 +154,9 @@ void ConflictMap::relate(Cell& cell, const Numbers& near, const ConflictRules& r
     return std::ranges::any_of(
         cell.same_place, [&](std::uint32_t one) { return std::ranges::binary_search(lane, one); });
   };
-  cell.is_conflict = std::ranges::any_of(cell.overlaps, [&](std::uint32_t other) {
-    return !std::ranges::all_of(cells_[other].lanes, leads_here);
+  cell.is_conflict = std::ranges::any_of(near, [&](std::uint32_t other) {
+    return intersects(cell.stopping_area_m, cells_[other].area_m) &&
+           !std::ranges::all_of(cells_[other].lanes, leads_here);
   });
 }
 

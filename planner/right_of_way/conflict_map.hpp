@@ -33,6 +33,10 @@ struct ConflictRules {
   double joined_m{0.0};
   /// Cells in the same place as a conflict cell are conflict cells, too.
   bool shares_conflicts{false};
+  /// A vehicle that stands needs so much more to each side, to be passed and to drive off again: a
+  /// cell that overlaps another lane's cell when it is wider by this is a conflict cell, too. For
+  /// automata of few trims, which stop somewhat beside their line (automaton::lateral_step_m).
+  double stopping_room_m{0.0};
 };
 
 /// For routes that drive each lane many times.
@@ -44,10 +48,11 @@ inline constexpr ConflictRules kTours{
 /// is the rectangle of a vehicle there, on its driving line, with the slip of the curve. Two cells
 /// overlap if their areas do.
 ///
-/// A cell is a *conflict cell* if it overlaps a cell of a route that crosses it or merges with it
-/// there, or its own route farther on; where routes share a lane, a car only follows the other, and
-/// where a route drives a lane again, it follows itself. A vehicle that stands in a conflict cell
-/// may block vehicles that do not follow it: no authority (grant.hpp) ends there.
+/// A cell is a *conflict cell* if, wider by ConflictRules::stopping_room_m to each side, it
+/// overlaps a cell of a route that crosses it or merges with it there, or its own route farther on;
+/// where routes share a lane, a car only follows the other, and where a route drives a lane again,
+/// it follows itself. A vehicle that stands in a conflict cell may block vehicles that do not
+/// follow it: no authority (grant.hpp) ends there.
 ///
 /// With ConflictRules::shares_conflicts a cell in the same place as a conflict cell is one, too (as
 /// one that is a conflict cell by the rule above, of any route): vehicles of all routes that share
@@ -62,6 +67,8 @@ class ConflictMap {
 
   /// Of the vehicles (scale_of).
   [[nodiscard]] double scale() const { return scale_; }
+  /// ConflictRules::stopping_room_m, of these vehicles.
+  [[nodiscard]] double stopping_room_m() const { return stopping_room_m_; }
   [[nodiscard]] std::size_t num_routes() const { return routes_.size(); }
   [[nodiscard]] std::size_t num_cells(std::size_t route) const { return routes_[route].size(); }
   [[nodiscard]] double length_m(std::size_t route) const { return lengths_m_[route]; }
@@ -99,6 +106,7 @@ class ConflictMap {
   struct Cell {
     Pose pose;  ///< on the driving line, heading of the path
     ConvexPolygon area_m;
+    ConvexPolygon stopping_area_m;  ///< wider by ConflictRules::stopping_room_m
     Numbers overlaps;
     Numbers same_place;  ///< cells that share a lane with this one here, itself included
     bool is_conflict{};
@@ -118,6 +126,7 @@ class ConflictMap {
   std::vector<Numbers> routes_;  ///< in the order of driving, not ascending
   std::vector<double> lengths_m_;
   double scale_;
+  double stopping_room_m_{};
   double reach_of_area_m_{};  ///< from a cell's position
 };
 

@@ -8,10 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "planner/automaton/lateral_step.hpp"
 #include "planner/road/driving_line.hpp"
 
 namespace hlc::scenario {
 namespace {
+
+/// Automata that stop so much beside their line have room enough (ConflictRules::across_m). Of the
+/// µCar, for others scale_of times as long.
+constexpr double kNeedlessRoom_m = 0.001;
 
 std::uint32_t number_of(const road::ReferencePath& path, std::vector<road::DrivableRoute>& routes) {
   const auto found = std::ranges::find_if(routes, [&](const road::DrivableRoute& route) {
@@ -85,9 +90,12 @@ void relate_routes(Scenario& scenario) {
   for (ScenarioVehicle& vehicle : scenario.vehicles) {
     vehicle.driving_line = lines[vehicle.route_number];
   }
-  scenario.conflicts = std::make_shared<const right_of_way::ConflictMap>(
-      routes, parameters,
-      scenario.random_routes_on ? right_of_way::kTours : right_of_way::ConflictRules{});
+  right_of_way::ConflictRules rules =
+      scenario.random_routes_on ? right_of_way::kTours : right_of_way::ConflictRules{};
+  const double lateral_m =
+      automaton::lateral_step_m(*scenario.subgraph) / scale_of(parameters.footprint);
+  if (lateral_m > kNeedlessRoom_m) rules.stopping_room_m = lateral_m;
+  scenario.conflicts = std::make_shared<const right_of_way::ConflictMap>(routes, parameters, rules);
   check_routes(scenario);
 }
 

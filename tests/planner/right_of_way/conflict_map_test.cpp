@@ -258,6 +258,21 @@ TEST(ConflictMap, CarsStopInTheSamePlacesBehindAMergeWhereConflictsAreShared) {
   EXPECT_NEAR(last_conflict_rad(shared, 0), joined_rad, shared.cell_m(0) / 2.0);
 }
 
+// On a ring of 4 m cars of 107 mm with 16 mm to each side leave nearly 11 mm of 150 mm.
+TEST(ConflictMap, NoCarStopsBesideAnotherLaneWithoutTheRoomThatStoppingNeeds) {
+  const std::vector<road::DrivableRoute> routes{circle({0.0, 0.0}, 4.0),
+                                                circle({0.0, 0.0}, 4.0 + kLane_m)};
+  const ConflictMap map(routes, kCar, {.stopping_room_m = 0.005});
+  EXPECT_EQ(num_conflicts(map, 0) + num_conflicts(map, 1), 0U);
+  const ConflictMap wide(routes, kCar, {.stopping_room_m = 0.015});
+  EXPECT_EQ(num_conflicts(wide, 0), wide.num_cells(0));
+  EXPECT_EQ(num_conflicts(wide, 1), wide.num_cells(1));
+  for (std::size_t cell = 0; cell < wide.num_cells(0); ++cell) {
+    EXPECT_TRUE(std::ranges::equal(wide.overlaps(0, cell), map.overlaps(0, cell)))
+        << "cars still pass each other in cell " << cell;
+  }
+}
+
 TEST(ConflictMap, TheSameLaneInTheOtherDirectionIsAConflictAllAlong) {
   const ConflictMap map({{circle({0.0, 0.0}, 1.0), circle({0.0, 0.0}, 1.0, -1.0)}}, kCar);
   EXPECT_EQ(num_conflicts(map, 0), map.num_cells(0));

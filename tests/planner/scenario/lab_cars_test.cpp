@@ -14,6 +14,7 @@
 #include "planner/scenario/scenario.hpp"
 #include "planner/scenario/starts.hpp"
 #include "planner/search/horizon_problem.hpp"
+#include "tests/planner/scenario/changed_scenario.hpp"
 #include "tests/support/folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -64,6 +65,13 @@ TEST(LabCars, ARouteOnWhichACarCouldWaitNowhereIsRefused) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("lab_cars.yaml: right_of_way: "),
                                     HasSubstr("vehicle 1 (" + name + ")")));
   }
+}
+
+TEST(LabCars, CarsOfFewTrimsHaveMoreRoomWhereTheyStop) {
+  EXPECT_EQ(read_scenario(lab_cars()).conflicts->stopping_room_m(), 0.0);
+  const Scenario few_trims = test::changed_scenario(
+      "lab_cars", "", {{"ucar_traffic_49", "paper"}, {"subgraph: J2", "subgraph: B"}}, {});
+  EXPECT_NEAR(few_trims.conflicts->stopping_room_m(), 0.0051, 0.0001);
 }
 
 TEST(LabCars, DrawsDifferentPathsWhoseStartsDoNotOverlap) {
