@@ -131,7 +131,8 @@ bool Controller::find_candidate(const search::HorizonProblem& problem, std::size
 }
 
 /// Where the plan in force ends a plan may end, too, whatever has come beside that place since; and
-/// if there is no way off from there either, it may end anywhere.
+/// if there is no way off from there either, it may end anywhere. The report does not count these
+/// searches, whose problems are not those of a plan.
 bool Controller::ends_where_permitted(const coordination::Plan& plan,
                                       const search::HorizonProblem& in) {
   const coordination::Plan& in_force = in_force_->base();
@@ -146,10 +147,7 @@ bool Controller::ends_where_permitted(const coordination::Plan& plan,
     const std::optional<search::HorizonProblem> problem =
         way_off_problem(from, in, next, tracker_, reach_m(), vehicle);
     if (!problem) return true;
-    const search::SearchResult result = search_.search(*problem, kWayOffShare);
-    step_.report.generated += result.generated;
-    step_.report.expanded += result.expanded;
-    return may_lead_off(result, *problem, vehicle);
+    return may_lead_off(search_.search(*problem, kWayOffShare), *problem, vehicle);
   };
   return has_way_off(plan) || !has_way_off(in_force);
 }

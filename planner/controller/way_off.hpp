@@ -29,8 +29,8 @@ namespace hlc::controller {
     const coordination::Plan& plan, const search::HorizonProblem& found_in, StepIndex next,
     const RouteTracker& tracker, double reach_m, const vehicle::VehicleParameters& vehicle);
 
-/// Whether the path found for that problem leads away from its start, or the search has stopped
-/// before it could tell.
+/// Whether the path found for that problem leads away from its start. True also if the search has
+/// stopped early.
 [[nodiscard]] bool may_lead_off(const search::SearchResult& result,
                                 const search::HorizonProblem& way_off,
                                 const vehicle::VehicleParameters& vehicle);
