@@ -26,6 +26,16 @@ constexpr double kBarLength_m = 0.010;
 constexpr double kBarWider_m = 0.023;
 constexpr double kHalfChord_m = 0.02;
 
+/// Whether a claim holds a cell, its place or one ahead of it, that vehicles of other lanes need.
+bool holds_conflict_cell(const right_of_way::ConflictMap& map, std::uint32_t route, double place_m,
+                         double held_m) {
+  const std::int64_t last = map.count_at(route, place_m + held_m);
+  for (std::int64_t cell = map.count_at(route, place_m); cell <= last; ++cell) {
+    if (map.is_conflict(route, map.index_of(route, cell))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Authority::Authority(std::shared_ptr<const right_of_way::ConflictMap> map,
@@ -49,7 +59,8 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
   const double moved_m = is_continued ? from_former_m : 0.0;
   const double held_m = is_continued ? claim_.ahead_m - moved_m : 0.0;
   const bool stands = is_continued && std::abs(moved_m) < map_->scale() * kStands_m;
-  const bool is_unused = stands && held_m > std::max(plans_m, 0.0) + map_->cell_m(route);
+  const bool is_unused = stands && held_m > std::max(plans_m, 0.0) + map_->cell_m(route) &&
+                         holds_conflict_cell(*map_, route, place_m, held_m);
   unused_steps_ = is_unused ? unused_steps_ + 1 : 0;
   const bool gives_back = unused_steps_ == kPatience_steps;
   if (gives_back) unused_steps_ = 0;
@@ -126,6 +137,7 @@ void Authority::decline(VehicleId own, const std::vector<right_of_way::Holder>& 
 std::vector<VehicleId> Authority::withheld_by() const {
   if (!is_limited_) return {};
   if (taken_.declines) return taken_.declined_for;
+  if (taken_.kept_out_for) return {*taken_.kept_out_for};
   return right_of_way::withheld_by(*map_, holders_, blocked_, own_place_);
 }
 

@@ -46,15 +46,28 @@ std::vector<std::size_t> order_of_turns(std::size_t num_vehicles, std::size_t nu
 
 }  // namespace
 
-Queues::Queues(const ConflictMap& map, std::span<const coordination::LaneClaim> claims,
-               std::span<const coordination::LaneClaim> from, std::span<const Blocked> blocked)
+std::vector<bool> overlapping_next_stretch(const ConflictMap& map,
+                                           const coordination::LaneClaim& claim) {
+  std::vector<bool> cells(map.num_cells());
+  const std::int64_t from = map.count_at(claim.route, claim.place_m + claim.ahead_m);
+  const auto whole_route = static_cast<std::int64_t>(map.num_cells(claim.route));
+  for (std::int64_t at = from + 1; at < from + whole_route; ++at) {
+    const std::size_t index = map.index_of(claim.route, at);
+    for (const std::uint32_t cell : map.overlaps(claim.route, index)) cells[cell] = true;
+    if (!map.is_conflict(claim.route, index)) break;
+  }
+  return cells;
+}
+
+Queues::Queues(const ConflictMap& map, std::span<const Holder> holders,
+               std::span<const double> ahead_m, std::span<const Blocked> blocked)
     : map_(&map), blocked_(blocked), holders_(map.num_cells(), kNobody) {
-  for (std::size_t who = 0; who < claims.size(); ++who) {
-    const coordination::LaneClaim& claim = claims[who];
+  for (std::size_t who = 0; who < holders.size(); ++who) {
+    const coordination::LaneClaim& claim = holders[who].claim;
     Car& car = cars_.emplace_back();
     car.route = claim.route;
-    car.at = map.count_at(claim.route, claim.place_m + claim.ahead_m);
-    car.target = behind_next_stretches(map, from[who]);
+    car.at = map.count_at(claim.route, claim.place_m + ahead_m[who]);
+    car.target = behind_next_stretches(map, claim);
     car.last = std::max(car.at, car.target) +
                static_cast<std::int64_t>(map.scale() * kMakesRoom_m / map.cell_m(claim.route));
     holders_[cell_of(car)] = static_cast<std::uint16_t>(who);
@@ -77,6 +90,30 @@ void Queues::take_turns(const std::vector<std::size_t>& order) {
   do {
     close_up();
   } while (!left().empty() && (take_turn(order, false) || take_turn(order, true)));
+}
+
+bool Queues::passes_if_reserved(std::size_t who, const std::vector<bool>& reserved) const {
+  const std::size_t num_stuck = stuck().size();
+  for (std::size_t number = 0; number < kOrders; ++number) {
+    const std::vector<std::size_t> order = order_of_turns(cars_.size(), number);
+    Queues queues = *this;
+    queues.reserved_ = reserved;
+    queues.reserver_ = who;
+    if (!queues.takes_turns_until_free(who, order)) continue;
+    queues.pass(who);
+    queues.reserved_.clear();
+    queues.take_turns(order);
+    if (queues.left().size() <= num_stuck) return true;
+  }
+  return false;
+}
+
+bool Queues::takes_turns_until_free(std::size_t who, const std::vector<std::size_t>& order) {
+  while (!is_way_free(who)) {
+    close_up();
+    if (!is_way_free(who) && !take_turn(order, false) && !take_turn(order, true)) return false;
+  }
+  return true;
 }
 
 /// Those that have passed their stretches go on only to make room.
@@ -157,7 +194,20 @@ bool Queues::visit_in_the_way(std::size_t who, const Visit& visit) const {
 }
 
 bool Queues::is_way_free(std::size_t who) const {
-  return !visit_in_the_way(who, [](std::uint16_t) { return true; });
+  return may_enter(who) && !visit_in_the_way(who, [](std::uint16_t) { return true; });
+}
+
+/// Who is in a reserved cell may go on to leave them.
+bool Queues::may_enter(std::size_t who) const {
+  const Car& car = cars_[who];
+  if (reserved_.empty() || who == reserver_ || reserved_[cell_of(car)]) return true;
+  const auto whole_route = static_cast<std::int64_t>(map_->num_cells(car.route));
+  for (std::int64_t at = car.at + 1; at < car.at + whole_route; ++at) {
+    const std::size_t index = map_->index_of(car.route, at);
+    if (reserved_[map_->cell(car.route, index)]) return false;
+    if (!map_->is_conflict(car.route, index)) break;
+  }
+  return true;
 }
 
 bool Queues::is_blocked(std::size_t route, std::size_t index) const {

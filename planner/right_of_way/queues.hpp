@@ -11,21 +11,31 @@
 
 namespace hlc::right_of_way {
 
+/// For each cell of the map, whether it overlaps one of those that would be granted next to this
+/// vehicle: a stretch of conflict cells, if there is one, and the first cell behind it.
+[[nodiscard]] std::vector<bool> overlapping_next_stretch(const ConflictMap& map,
+                                                         const coordination::LaneClaim& claim);
+
 /// Vehicles that stand in one cell each, at the ends of their authorities, and take turns
 /// (way_on.hpp). A value; the arguments must outlive it.
 class Queues {
  public:
-  /// @param claims  one for each vehicle
-  /// @param from    the same before: each vehicle is to pass the next three stretches of conflict
-  ///                cells from there
-  Queues(const ConflictMap& map, std::span<const coordination::LaneClaim> claims,
-         std::span<const coordination::LaneClaim> from, std::span<const Blocked> blocked);
+  /// @param holders  as the step began: each is to pass the next three stretches of conflict cells
+  ///                 from the end of what it held then
+  /// @param ahead_m  ends of their authorities now
+  Queues(const ConflictMap& map, std::span<const Holder> holders, std::span<const double> ahead_m,
+         std::span<const Blocked> blocked);
 
   /// Indices of the vehicles that are stuck when no further turn is possible, fewest of several
   /// orders of turns.
   [[nodiscard]] std::vector<std::size_t> stuck() const;
   /// How many vehicles are in a circle, or wait for one, once all have closed up.
   [[nodiscard]] std::size_t num_in_circles() const;
+
+  /// Whether turns that enter none of these cells lead to a vehicle's passing its next stretch, and
+  /// no more vehicles are stuck after further turns than without such a rule.
+  /// @param reserved  overlapping_next_stretch of the vehicle
+  [[nodiscard]] bool passes_if_reserved(std::size_t who, const std::vector<bool>& reserved) const;
 
  private:
   static constexpr std::uint16_t kNobody = 0xffff;
@@ -40,6 +50,7 @@ class Queues {
   };
 
   void take_turns(const std::vector<std::size_t>& order);
+  bool takes_turns_until_free(std::size_t who, const std::vector<std::size_t>& order);
   bool take_turn(const std::vector<std::size_t>& order, bool has_passed);
   void close_up();
   bool goes_on(std::size_t who);
@@ -47,6 +58,7 @@ class Queues {
   template <class Visit>
   bool visit_in_the_way(std::size_t who, const Visit& visit) const;
   [[nodiscard]] bool is_way_free(std::size_t who) const;
+  [[nodiscard]] bool may_enter(std::size_t who) const;
   [[nodiscard]] bool is_blocked(std::size_t route, std::size_t index) const;
   [[nodiscard]] std::uint32_t cell_of(const Car& car) const;
   [[nodiscard]] std::vector<std::size_t> left() const;
@@ -55,6 +67,8 @@ class Queues {
   std::span<const Blocked> blocked_;
   std::vector<Car> cars_;
   std::vector<std::uint16_t> holders_;  ///< of each cell of the map
+  std::vector<bool> reserved_;  ///< which cells others than `reserver_` do not enter, or none
+  std::size_t reserver_{};
 };
 
 }  // namespace hlc::right_of_way

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "planner/right_of_way/queues.hpp"
+#include "planner/right_of_way/reservation.hpp"
 
 namespace hlc::right_of_way {
 namespace {
@@ -48,16 +49,6 @@ Judged judged(const Queues& queues) {
   return result;
 }
 
-std::vector<coordination::LaneClaim> claims_to(std::span<const Holder> holders,
-                                               std::span<const double> ahead_m) {
-  std::vector<coordination::LaneClaim> claims;
-  for (std::size_t who = 0; who < holders.size(); ++who) {
-    claims.push_back(holders[who].claim);
-    claims.back().ahead_m = ahead_m[who];
-  }
-  return claims;
-}
-
 void decline(std::size_t who, double end_m, std::span<const Holder> holders,
              const std::vector<std::size_t>& stuck_anyway, const std::vector<std::size_t>& stuck,
              std::vector<Taken>& taken) {
@@ -74,33 +65,38 @@ void decline(std::size_t who, double end_m, std::span<const Holder> holders,
 std::vector<Taken> leave_a_way_on(const ConflictMap& map, std::span<const Holder> holders,
                                   std::span<const double> ahead_m, std::span<const Blocked> blocked,
                                   const GrantOrder& order) {
-  std::vector<coordination::LaneClaim> before;
   std::vector<Taken> taken;
+  for (const double end_m : ahead_m) {
+    taken.push_back({.ahead_m = end_m, .declines = false, .declined_for = {}, .kept_out_for = {}});
+  }
+  if (!order.puts_waiting_first || holders.size() > kMostVehicles) return taken;
+  const Reserved reserved = reserve(map, holders, ahead_m, blocked, order);
+  for (const std::size_t who : reserved.kept_out) {
+    taken[who].ahead_m = reserved.ahead_m[who];
+    taken[who].kept_out_for = reserved.vehicle;
+  }
+  std::vector<double> ends = reserved.ahead_m;
   std::vector<std::vector<double>> ends_m;
   std::vector<std::size_t> entering;
   for (std::size_t who = 0; who < holders.size(); ++who) {
-    before.push_back(holders[who].claim);
-    taken.push_back({.ahead_m = ahead_m[who], .declines = false, .declined_for = {}});
-    ends_m.push_back(ends_of(map, before.back(), ahead_m[who]));
+    ends_m.push_back(ends_of(map, holders[who].claim, ends[who]));
     if (ends_m.back().size() > 1) entering.push_back(who);
   }
-  if (entering.empty() || !order.puts_waiting_first || holders.size() > kMostVehicles) return taken;
-  std::vector<coordination::LaneClaim> ends = claims_to(holders, ahead_m);
-  if (Queues(map, ends, before, blocked).stuck().empty()) return taken;
-  for (const std::size_t who : entering) ends[who].ahead_m = ends_m[who].front();
-  Judged best = judged({map, ends, before, blocked});
+  if (entering.empty() || Queues(map, holders, ends, blocked).stuck().empty()) return taken;
+  for (const std::size_t who : entering) ends[who] = ends_m[who].front();
+  Judged best = judged({map, holders, ends, blocked});
   sort_by(order, holders, entering);
   for (const std::size_t who : entering) {
     for (std::size_t i = 1; i < ends_m[who].size(); ++i) {
-      ends[who].ahead_m = ends_m[who][i];
-      Judged then = judged({map, ends, before, blocked});
+      ends[who] = ends_m[who][i];
+      Judged then = judged({map, holders, ends, blocked});
       if (then.is_worse_than(best)) {
         decline(who, ends_m[who][i - 1], holders, best.stuck, then.stuck, taken);
         break;
       }
       best = std::move(then);
     }
-    ends[who].ahead_m = taken[who].ahead_m;
+    ends[who] = taken[who].ahead_m;
   }
   return taken;
 }

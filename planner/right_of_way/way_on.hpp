@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,11 +16,14 @@ struct Taken {
   bool declines{};   ///< it takes less than was granted
   /// Others that would be stuck if it took more and are not as it is; none: it itself would be.
   std::vector<VehicleId> declined_for;
+  /// It was granted road that is reserved for this one (reservation.hpp).
+  std::optional<VehicleId> kept_out_for;
 
   friend bool operator==(const Taken&, const Taken&) = default;
 };
 
-/// Of all ends that are granted (grant.hpp), those that leave a way on for all vehicles.
+/// Of all ends that are granted (grant.hpp), those that enter no road that is reserved
+/// (reservation.hpp), and leave a way on for all vehicles.
 ///
 /// Where lanes are full, vehicles wait for each other around a circle: each for the next one to
 /// leave its lane. So a vehicle *declines* to enter a stretch of conflict cells, and ends before

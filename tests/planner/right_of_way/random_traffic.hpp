@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <random>
@@ -19,8 +20,13 @@ inline constexpr double kLongestStep_m = 0.16;
 /// Cars that drive at random speeds to the ends of their authorities.
 class RandomTraffic {
  public:
-  RandomTraffic(const scenario::Scenario& scenario, std::uint64_t seed, double look_ahead_m)
-      : map_(*scenario.conflicts), look_ahead_m_(look_ahead_m), random_(seed) {
+  /// @param longest_wait  no vehicle counts more steps: with less than 50 nothing is reserved
+  RandomTraffic(const scenario::Scenario& scenario, std::uint64_t seed, double look_ahead_m,
+                std::uint32_t longest_wait = std::numeric_limits<std::uint32_t>::max())
+      : map_(*scenario.conflicts),
+        look_ahead_m_(look_ahead_m),
+        longest_wait_(longest_wait),
+        random_(seed) {
     for (const scenario::ScenarioVehicle& vehicle : scenario.vehicles) {
       holders_.push_back({.vehicle = vehicle.id,
                           .claim = {.route = vehicle.route_number, .place_m = vehicle.start_s_m}});
@@ -96,7 +102,7 @@ class RandomTraffic {
       claim.place_m = std::fmod(claim.place_m + moved_m, map_.length_m(claim.route));
       claim.ahead_m -= moved_m;
       const bool waits = moved_m < 0.002 && !has_declined_[holders_[i].vehicle];
-      claim.waiting_steps = waits ? claim.waiting_steps + 1 : 0;
+      claim.waiting_steps = waits ? std::min(claim.waiting_steps + 1, longest_wait_) : 0;
       std::uint32_t& stood_steps = stood_steps_[holders_[i].vehicle];
       stood_steps = moved_m < 0.002 ? stood_steps + 1 : 0;
       longest = std::max(longest, stood_steps);
@@ -116,6 +122,7 @@ class RandomTraffic {
 
   const ConflictMap& map_;
   double look_ahead_m_;
+  std::uint32_t longest_wait_;
   std::mt19937_64 random_;
   std::vector<Holder> before_;
   std::map<VehicleId, std::uint32_t> stood_steps_;

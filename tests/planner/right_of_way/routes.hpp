@@ -67,4 +67,13 @@ inline const scenario::Scenario& lab_cars() {
   return kScenario;
 }
 
+/// The same with random turns, which takes seconds to read: once for all tests of a program.
+inline const scenario::Scenario& lab_cars_on_tours() {
+  static const scenario::Scenario kScenario = scenario::read_scenario(
+      {.file = test::source_folder() + "/launch_scripts/scenarios/lab_cars.yaml",
+       .seed = 2,
+       .routes = "random"});
+  return kScenario;
+}
+
 }  // namespace hlc::right_of_way

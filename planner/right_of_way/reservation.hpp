@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "planner/right_of_way/conflict_map.hpp"
+#include "planner/right_of_way/grant.hpp"
+#include "planner/right_of_way/grant_order.hpp"
+
+namespace hlc::right_of_way {
+
+/// Ends of authorities without the road that is kept free for one vehicle.
+struct Reserved {
+  std::vector<double> ahead_m;  ///< from their places, in the order of the holders
+  /// The vehicle for which road is kept free, and indices of those that would have been granted it.
+  std::optional<VehicleId> vehicle;
+  std::vector<std::size_t> kept_out;
+};
+
+/// Of all ends that are granted (grant.hpp), those that keep the next stretch of a vehicle free.
+///
+/// A stretch of conflict cells is granted only as a whole. On a full road that of a vehicle which
+/// crosses many lanes may never be free as a whole: others need less of it, and are granted their
+/// parts one after the other, however long it has waited. So when it has stood for 10 s its next
+/// stretch, to the first cell behind it, is *reserved*: those that come after it in the order are
+/// granted no cell that overlaps one of these. Who is in such a cell already drives on.
+///
+/// One that is in the way may itself need road that is reserved before it can leave. So it is
+/// reserved only where turns (queues.hpp) that enter none of it lead to its being free, and after
+/// which no more vehicles are stuck than otherwise: for the first vehicle in the order for which
+/// they do, and for one at a time, since what is reserved for two may keep each in the other's way.
+/// Cells do not know of a vehicle that may go on but finds no plan, perhaps until one that is kept
+/// out has left. So nothing is reserved for who has stood for more than 30 s: then the others get
+/// on as if nothing were ever reserved.
+///
+/// @param ahead_m  grant of these holders
+[[nodiscard]] Reserved reserve(const ConflictMap& map, std::span<const Holder> holders,
+                               std::span<const double> ahead_m, std::span<const Blocked> blocked,
+                               const GrantOrder& order);
+
+}  // namespace hlc::right_of_way

@@ -1,0 +1,120 @@
+#include "planner/right_of_way/reservation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planner/right_of_way/queues.hpp"
+#include "planner/right_of_way/way_on.hpp"
+#include "tests/planner/right_of_way/held_cells.hpp"
+#include "tests/planner/right_of_way/random_traffic.hpp"
+#include "tests/planner/right_of_way/routes.hpp"
+
+namespace hlc::right_of_way::reservation_test {
+namespace {
+
+constexpr double kLookAhead_m = 1.0;
+constexpr std::uint64_t kSeed = 2;  // of the speeds
+constexpr std::uint32_t kTenSeconds = 50;
+
+/// A step's grants and what of them is reserved.
+struct Case {
+  const ConflictMap& map;
+  const std::vector<Holder>& holders;
+  std::vector<double> granted_m;
+  Reserved reserved;
+
+  Case(const ConflictMap& map, const std::vector<Holder>& holders)
+      : map(map),
+        holders(holders),
+        granted_m(grant(map, holders, {}, kLookAhead_m)),
+        reserved(reserve(map, holders, granted_m, {}, kLongestWait)) {}
+
+  [[nodiscard]] std::size_t reserver() const {
+    return static_cast<std::size_t>(
+        std::ranges::find(holders, reserved.vehicle.value(), &Holder::vehicle) - holders.begin());
+  }
+  [[nodiscard]] bool is_kept_out(std::size_t who) const {
+    return std::ranges::find(reserved.kept_out, who) != reserved.kept_out.end();
+  }
+};
+
+void expect_only_that_kept_free(const Case& one) {
+  const std::size_t reserver = one.reserver();
+  const Holder& first = one.holders[reserver];
+  EXPECT_GE(first.claim.waiting_steps, kTenSeconds);
+  EXPECT_EQ(one.granted_m[reserver], first.claim.ahead_m);
+  const std::vector<bool> cells = overlapping_next_stretch(one.map, first.claim);
+  const auto is_in = [&](std::size_t route, std::size_t i) {
+    return cells[one.map.cell(route, i)];
+  };
+  for (std::size_t who = 0; who < one.holders.size(); ++who) {
+    const coordination::LaneClaim& claim = one.holders[who].claim;
+    const double end_m = one.reserved.ahead_m[who];
+    EXPECT_EQ(end_m < one.granted_m[who], one.is_kept_out(who)) << who;
+    if (!one.is_kept_out(who)) continue;
+    EXPECT_FALSE(kLongestWait.is_before(one.holders[who], first)) << who;
+    EXPECT_GE(end_m, claim.ahead_m) << who;
+    const auto taken = cells_of(one.map, one.holders[who], claim.ahead_m, end_m);
+    for (const std::size_t i : taken) EXPECT_FALSE(is_in(claim.route, i)) << who;
+    EXPECT_TRUE(taken.size() == 1 || !one.map.is_conflict(claim.route, taken.back())) << who;
+    const auto granted = cells_of(one.map, one.holders[who], claim.ahead_m, one.granted_m[who]);
+    EXPECT_TRUE(std::ranges::any_of(granted, [&](auto i) { return is_in(claim.route, i); })) << who;
+  }
+  const Queues then(one.map, one.holders, one.reserved.ahead_m, {});
+  EXPECT_TRUE(then.passes_if_reserved(reserver, cells));
+}
+
+void expect_told(const Case& one) {
+  const std::vector<Taken> taken =
+      leave_a_way_on(one.map, one.holders, one.granted_m, {}, kLongestWait);
+  for (std::size_t who = 0; who < taken.size(); ++who) {
+    EXPECT_LE(taken[who].ahead_m, one.reserved.ahead_m[who]);
+    EXPECT_EQ(taken[who].kept_out_for, one.is_kept_out(who) ? one.reserved.vehicle : std::nullopt);
+  }
+}
+
+// Without reserved road cars on these tours stand for up to 53 s.
+TEST(Reservation, WhoHasWaitedLongFindsItsWayFreeBeforeThoseThatCameLater) {
+  const scenario::Scenario& drawn = lab_cars_on_tours();
+  RandomTraffic traffic(drawn, kSeed, kLookAhead_m);
+  std::uint32_t longest = 0;
+  std::size_t num_reserved = 0;
+  std::size_t num_kept_out = 0;
+  std::size_t num_not_for_the_first = 0;
+  for (int step = 0; step < 3000; ++step) {
+    longest = std::max(longest, traffic.step());
+    const bool waits = std::ranges::any_of(
+        traffic.before(), [](const Holder& one) { return one.claim.waiting_steps >= kTenSeconds; });
+    if (!waits) continue;
+    SCOPED_TRACE(step);
+    const Case one(*drawn.conflicts, traffic.before());
+    expect_told(one);
+    num_kept_out += one.reserved.kept_out.size();
+    if (!one.reserved.vehicle) continue;
+    ++num_reserved;
+    expect_only_that_kept_free(one);
+    num_not_for_the_first += std::ranges::any_of(one.holders, [&](const Holder& other) {
+      return kLongestWait.is_before(other, one.holders[one.reserver()]);
+    });
+  }
+  EXPECT_LT(longest, 200U);
+  EXPECT_GT(num_reserved, 0U) << "nothing was tried";
+  EXPECT_GT(num_kept_out, 0U) << "nothing was tried";
+  EXPECT_GT(num_not_for_the_first, 0U) << "the first one's could always be reserved";
+}
+
+TEST(Reservation, NothingIsReservedForWhoHasJustStopped) {
+  const scenario::Scenario& drawn = lab_cars_on_tours();
+  RandomTraffic traffic(drawn, kSeed, kLookAhead_m, kTenSeconds - 1);
+  for (int step = 0; step < 400; ++step) {
+    static_cast<void>(traffic.step());
+    const Case one(*drawn.conflicts, traffic.before());
+    EXPECT_FALSE(one.reserved.vehicle) << step;
+    EXPECT_EQ(one.reserved.ahead_m, one.granted_m) << step;
+    EXPECT_TRUE(one.reserved.kept_out.empty()) << step;
+  }
+}
+
+}  // namespace
+}  // namespace hlc::right_of_way::reservation_test
