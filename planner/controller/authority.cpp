@@ -26,11 +26,12 @@ constexpr double kBarLength_m = 0.010;
 constexpr double kBarWider_m = 0.023;
 constexpr double kHalfChord_m = 0.02;
 
-/// Whether a claim holds a cell, its place or one ahead of it, that vehicles of other lanes need.
-bool holds_conflict_cell(const right_of_way::ConflictMap& map, std::uint32_t route, double place_m,
-                         double held_m) {
+/// Whether a vehicle that holds its route up to `held_m` from its place gives back, behind
+/// `kept_m`, a cell that vehicles of other lanes need.
+bool gives_back_conflict_cell(const right_of_way::ConflictMap& map, std::uint32_t route,
+                              double place_m, double kept_m, double held_m) {
   const std::int64_t last = map.count_at(route, place_m + held_m);
-  for (std::int64_t cell = map.count_at(route, place_m); cell <= last; ++cell) {
+  for (std::int64_t cell = map.count_at(route, place_m + kept_m) + 1; cell <= last; ++cell) {
     if (map.is_conflict(route, map.index_of(route, cell))) return true;
   }
   return false;
@@ -59,16 +60,18 @@ void Authority::begin_step(const coordination::Plan& in_force, StepIndex now,
   const double moved_m = is_continued ? from_former_m : 0.0;
   const double held_m = is_continued ? claim_.ahead_m - moved_m : 0.0;
   const bool stands = is_continued && std::abs(moved_m) < map_->scale() * kStands_m;
-  const bool is_unused = stands && held_m > std::max(plans_m, 0.0) + map_->cell_m(route) &&
-                         holds_conflict_cell(*map_, route, place_m, held_m);
+  const double kept_m = std::max(plans_m, 0.0);
+  const bool is_unused = stands && held_m > kept_m + map_->cell_m(route);
   unused_steps_ = is_unused ? unused_steps_ + 1 : 0;
   const bool gives_back = unused_steps_ == kPatience_steps;
   if (gives_back) unused_steps_ = 0;
-  claim_ = {
-      .route = route,
-      .place_m = place_m,
-      .ahead_m = std::max({gives_back ? 0.0 : held_m, plans_m, 0.0}),
-      .waiting_steps = stands && !gives_back && !taken_.declines ? claim_.waiting_steps + 1 : 0};
+  const bool waits_again =
+      taken_.declines ||
+      (gives_back && gives_back_conflict_cell(*map_, route, place_m, kept_m, held_m));
+  claim_ = {.route = route,
+            .place_m = place_m,
+            .ahead_m = gives_back ? kept_m : std::max(held_m, kept_m),
+            .waiting_steps = stands && !waits_again ? claim_.waiting_steps + 1 : 0};
   now_ = now;
   has_place_ = true;
   granted_.clear();
@@ -93,9 +96,13 @@ void Authority::extend(VehicleId own, std::span<const coordination::Traffic* con
   granted_ = received;
   for (const VehicleId other : missing) {
     const Known& known = known_.at(other);
-    assumed.push_back({.last = {other, known.claim},
-                       .moved_m = step_m * static_cast<double>(now_.value - known.step.value)});
-    granted_.push_back(assumed.back().last);
+    const std::uint64_t steps = now_.value - known.step.value;
+    right_of_way::Missing one{.last = {other, known.claim},
+                              .moved_m = step_m * static_cast<double>(steps)};
+    std::uint32_t& waiting_steps = one.last.claim.waiting_steps;
+    if (waiting_steps > 0) waiting_steps += static_cast<std::uint32_t>(steps);
+    granted_.push_back(one.last);
+    assumed.push_back(one);
   }
   std::ranges::sort(granted_, {}, &right_of_way::Holder::vehicle);  // as every other vehicle does
   const double look_ahead_m = map_->scale() * kLookAhead_m;
@@ -136,8 +143,12 @@ void Authority::decline(VehicleId own, const std::vector<right_of_way::Holder>& 
 
 std::vector<VehicleId> Authority::withheld_by() const {
   if (!is_limited_) return {};
-  if (taken_.declines) return taken_.declined_for;
-  if (taken_.kept_out_for) return {*taken_.kept_out_for};
+  if (taken_.declines || taken_.kept_out_for) {
+    std::vector<VehicleId> others = taken_.declined_for;
+    const std::optional<VehicleId>& one = taken_.kept_out_for;
+    if (one && std::ranges::find(others, *one) == others.end()) others.push_back(*one);
+    return others;
+  }
   return right_of_way::withheld_by(*map_, holders_, blocked_, own_place_);
 }
 

@@ -20,9 +20,9 @@ namespace hlc::controller {
 /// value; the map is shared.
 ///
 /// A vehicle that has stood for kPatience_steps with road of its own in front of it, also in a
-/// conflict cell, gives that road back, and its waiting starts again: something that the cells do
-/// not know of is in its way, perhaps a vehicle that waits for the same road and stands some
-/// millimetres too near to be passed.
+/// conflict cell, gives that road back, and if that has conflict cells its waiting starts again:
+/// something that the cells do not know of is in its way, perhaps a vehicle that waits for the same
+/// road and stands some millimetres too near to be passed.
 ///
 /// A vehicle that declines road, so that others get on (way_on.hpp), begins to wait again, too: the
 /// others come first.
@@ -73,8 +73,8 @@ class Authority {
   /// `receiver`: grants are the same in all controllers that received the same.
   void resume(const coordination::LaneClaim& claim, VehicleId vehicle, const Authority& receiver);
 
-  /// If the end limits planning: vehicles that hold or block what would be granted next, or that
-  /// would not get on if this one took it. @pre extend
+  /// If the end limits planning: vehicles that hold or block what would be granted next, for which
+  /// it is reserved, or that would not get on if this one took it. @pre extend
   [[nodiscard]] std::vector<VehicleId> withheld_by() const;
 
   /// Arc length of the end on the route, counted on from `s_m`, a place of the vehicle.

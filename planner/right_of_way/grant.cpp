@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "planner/right_of_way/stretch.hpp"
+
 namespace hlc::right_of_way {
 namespace {
 
@@ -46,7 +48,8 @@ class Grants {
     for (;;) {
       const CellNumber next = map_.count_at(claim.route, claim.place_m + ahead_m) + 1;
       if (static_cast<double>(next) * cell_m > claim.place_m + look_ahead_m) break;
-      const std::optional<CellNumber> end = end_of_stretch(claim.route, next);
+      const std::optional<CellNumber> end = end_of_stretch(
+          map_, claim.route, next, [&](std::size_t cell) { return is_free(claim.route, cell); });
       if (!end) break;
       ahead_m = static_cast<double>(*end) * cell_m - claim.place_m;
     }
@@ -187,24 +190,13 @@ class Grants {
 
   /// Cells that would be granted next, all of them or none.
   [[nodiscard]] std::vector<std::size_t> next_stretch(std::size_t who) const {
-    const std::size_t route = holders_[who].claim.route;
-    CellNumber cell = last_of(who) + 1;
-    std::vector<std::size_t> cells{map_.index_of(route, cell)};
-    while (map_.is_conflict(route, cells.back()) && cells.size() < map_.num_cells(route)) {
-      cells.push_back(map_.index_of(route, ++cell));
-    }
+    std::vector<std::size_t> cells;
+    static_cast<void>(
+        end_of_stretch(map_, holders_[who].claim.route, last_of(who) + 1, [&](std::size_t cell) {
+          cells.push_back(cell);
+          return true;
+        }));
     return cells;
-  }
-
-  /// The cell where a stretch that begins with `first` ends, if all of it is free.
-  [[nodiscard]] std::optional<CellNumber> end_of_stretch(std::size_t route,
-                                                         CellNumber first) const {
-    const auto whole_route = static_cast<CellNumber>(map_.num_cells(route));
-    for (CellNumber cell = first; cell < first + whole_route; ++cell) {
-      if (!is_free(route, map_.index_of(route, cell))) return std::nullopt;
-      if (!map_.is_conflict(route, map_.index_of(route, cell))) return cell;
-    }
-    return std::nullopt;
   }
 
   /// For a vehicle whose own cells are not counted.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,11 +11,6 @@
 #include "planner/right_of_way/grant.hpp"
 
 namespace hlc::right_of_way {
-
-/// For each cell of the map, whether it overlaps one of those that would be granted next to this
-/// vehicle: a stretch of conflict cells, if there is one, and the first cell behind it.
-[[nodiscard]] std::vector<bool> overlapping_next_stretch(const ConflictMap& map,
-                                                         const coordination::LaneClaim& claim);
 
 /// Vehicles that stand in one cell each, at the ends of their authorities, and take turns
 /// (way_on.hpp). A value; the arguments must outlive it.
@@ -32,10 +28,10 @@ class Queues {
   /// How many vehicles are in a circle, or wait for one, once all have closed up.
   [[nodiscard]] std::size_t num_in_circles() const;
 
-  /// Whether turns that enter none of these cells lead to a vehicle's passing its next stretch, and
-  /// no more vehicles are stuck after further turns than without such a rule.
-  /// @param reserved  overlapping_next_stretch of the vehicle
-  [[nodiscard]] bool passes_if_reserved(std::size_t who, const std::vector<bool>& reserved) const;
+  /// Whether turns in which others enter none of these cells lead to a vehicle's passing its next
+  /// stretch, and no more vehicles are stuck after further turns than without that.
+  /// @pre the next cell of the vehicle is a conflict cell
+  [[nodiscard]] bool passes_if_reserved(std::size_t who, const std::vector<bool>& cells) const;
 
  private:
   static constexpr std::uint16_t kNobody = 0xffff;
@@ -47,6 +43,11 @@ class Queues {
     std::int64_t last{};    ///< it goes no farther, so that turns end
 
     [[nodiscard]] bool has_passed() const { return at >= target; }
+  };
+
+  struct Reservation {
+    std::size_t who;
+    std::vector<bool> cells;  ///< of the map, which others do not enter
   };
 
   void take_turns(const std::vector<std::size_t>& order);
@@ -67,8 +68,7 @@ class Queues {
   std::span<const Blocked> blocked_;
   std::vector<Car> cars_;
   std::vector<std::uint16_t> holders_;  ///< of each cell of the map
-  std::vector<bool> reserved_;  ///< which cells others than `reserver_` do not enter, or none
-  std::size_t reserver_{};
+  std::optional<Reservation> reserved_;
 };
 
 }  // namespace hlc::right_of_way

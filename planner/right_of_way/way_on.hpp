@@ -13,7 +13,7 @@ namespace hlc::right_of_way {
 /// What a vehicle takes of what is granted to it.
 struct Taken {
   double ahead_m{};  ///< end of its authority, from its place
-  bool declines{};   ///< it takes less than was granted
+  bool declines{};   ///< it takes less, so that others, or it itself, get on
   /// Others that would be stuck if it took more and are not as it is; none: it itself would be.
   std::vector<VehicleId> declined_for;
   /// It was granted road that is reserved for this one (reservation.hpp).
@@ -45,7 +45,7 @@ struct Taken {
 /// It takes from what was granted, so no two vehicles hold other overlapping cells whatever each
 /// controller has received. Others do not take what was declined before the next step, and come
 /// first then (LaneClaim::waiting_steps). Where the order does not put those that wait first, or
-/// with more than 30 vehicles, nobody declines.
+/// with more than 30 vehicles, nobody declines, and nothing is reserved.
 /// @param ahead_m  grant of these holders
 /// @param order    in which they decline
 [[nodiscard]] std::vector<Taken> leave_a_way_on(const ConflictMap& map,
