@@ -18,8 +18,7 @@ constexpr int kStretches = 3;
 /// With one order, three of ten runs of twenty controllers on such tours ended in a circle, with 16
 /// none of 13.
 constexpr std::size_t kOrders = 16;
-/// With one order, where road is reserved ten runs of random traffic had waits of 30 s in the mean,
-/// with four 22 s, and with 16 26 s.
+/// Few, since they may be tried for every vehicle that waits.
 constexpr std::size_t kOrdersIfReserved = 4;
 /// How far a vehicle goes on behind them at most, to make room for others; for the µCar. Not tuned.
 constexpr double kMakesRoom_m = 6.0;

@@ -65,21 +65,23 @@ Reserved reserve(const ConflictMap& map, std::span<const Holder> holders,
   std::vector<std::size_t> turns(holders.size());
   std::iota(turns.begin(), turns.end(), std::size_t{0});
   sort_by(order, holders, turns);
-  const auto first = std::ranges::find_if(
-      turns, [&](std::size_t who) { return may_reserve(map, holders[who].claim, ahead_m[who]); });
-  if (first == turns.end()) return nothing;
-  const Holder& waiting = holders[*first];
-  const std::vector<bool> cells = overlapping_next_stretch(map, waiting.claim);
-  Reserved reserved = nothing;
-  reserved.vehicle = waiting.vehicle;
-  for (auto later = first + 1; later != turns.end(); ++later) {
-    const double end_m = end_outside_m(map, holders[*later].claim, ahead_m[*later], cells);
-    if (end_m == ahead_m[*later]) continue;
-    reserved.ahead_m[*later] = end_m;
-    reserved.kept_out.push_back(*later);
+  for (auto turn = turns.begin(); turn != turns.end(); ++turn) {
+    const Holder& waiting = holders[*turn];
+    if (!may_reserve(map, waiting.claim, ahead_m[*turn])) continue;
+    const std::vector<bool> cells = overlapping_next_stretch(map, waiting.claim);
+    Reserved reserved = nothing;
+    reserved.vehicle = waiting.vehicle;
+    for (auto later = turn + 1; later != turns.end(); ++later) {
+      const double end_m = end_outside_m(map, holders[*later].claim, ahead_m[*later], cells);
+      if (end_m == ahead_m[*later]) continue;
+      reserved.ahead_m[*later] = end_m;
+      reserved.kept_out.push_back(*later);
+    }
+    if (reserved.kept_out.empty()) continue;
+    const Queues queues(map, holders, reserved.ahead_m, blocked);
+    if (queues.passes_if_reserved(*turn, cells)) return reserved;
   }
-  const Queues queues(map, holders, reserved.ahead_m, blocked);
-  return queues.passes_if_reserved(*first, cells) ? reserved : nothing;
+  return nothing;
 }
 
 }  // namespace hlc::right_of_way

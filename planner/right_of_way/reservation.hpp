@@ -33,8 +33,9 @@ struct Reserved {
 ///
 /// One that is in the way may itself need road that is reserved before it can leave. So it is
 /// reserved only if turns (queues.hpp) in which nobody enters it lead to its being free, and no
-/// more vehicles are stuck after them. It is reserved for one vehicle at a time, the first one in
-/// the order: what is reserved for two may keep each in the other's way.
+/// more vehicles are stuck after them. In a step it is reserved for one vehicle only, the first one
+/// in the order for which that keeps anybody out: what is reserved for two may keep each in the
+/// other's way.
 ///
 /// Cells do not know of a vehicle that may go on but finds no plan, perhaps until one that is kept
 /// out has left. So nothing is reserved for who has stood for 150 steps. As all of a knot come to

@@ -89,7 +89,7 @@ std::vector<double> ends_of(const std::vector<Holder>& holders) {
   return ahead_m;
 }
 
-void expect_told(const Case& one) {
+void expect_reason_named(const Case& one) {
   const std::vector<Taken> taken =
       leave_a_way_on(one.map, one.holders, one.granted_m, {}, kLongestWait);
   for (std::size_t who = 0; who < taken.size(); ++who) {
@@ -114,7 +114,7 @@ TEST(Reservation, WhoHasWaitedLongFindsItsWayFreeBeforeThoseThatCameLater) {
     if (!waits) continue;
     SCOPED_TRACE(step);
     const Case one(*drawn.conflicts, traffic.before());
-    expect_told(one);
+    expect_reason_named(one);
     num_kept_out += one.reserved.kept_out.size();
     if (!one.reserved.vehicle) {
       ++num_not_reserved;
