@@ -60,8 +60,7 @@ std::vector<bool> overlapping_next_stretch(const ConflictMap& map,
 Reserved reserve(const ConflictMap& map, std::span<const Holder> holders,
                  std::span<const double> ahead_m, std::span<const Blocked> blocked,
                  const GrantOrder& order) {
-  const Reserved nothing{
-      .ahead_m = {ahead_m.begin(), ahead_m.end()}, .vehicle = {}, .kept_out = {}};
+  Reserved nothing{.ahead_m = {ahead_m.begin(), ahead_m.end()}, .vehicle = {}, .kept_out = {}};
   std::vector<std::size_t> turns(holders.size());
   std::iota(turns.begin(), turns.end(), std::size_t{0});
   sort_by(order, holders, turns);

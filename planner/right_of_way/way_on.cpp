@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 
 #include "planner/right_of_way/queues.hpp"
@@ -60,22 +61,34 @@ void decline(std::size_t who, double end_m, std::span<const Holder> holders,
   }
 }
 
+std::vector<Taken> all_of(std::span<const double> ahead_m) {
+  std::vector<Taken> taken;
+  for (const double end_m : ahead_m) {
+    taken.push_back({.ahead_m = end_m, .declines = false, .declined_for = {}, .kept_out_for = {}});
+  }
+  return taken;
+}
+
+/// All that is granted and not reserved.
+std::vector<Taken> taken_outside_reserved(const ConflictMap& map, std::span<const Holder> holders,
+                                          std::span<const double> ahead_m,
+                                          std::span<const Blocked> blocked,
+                                          const GrantOrder& order) {
+  const Reserved reserved = reserve(map, holders, ahead_m, blocked, order);
+  std::vector<Taken> taken = all_of(reserved.ahead_m);
+  for (const std::size_t who : reserved.kept_out) taken[who].kept_out_for = reserved.vehicle;
+  return taken;
+}
+
 }  // namespace
 
 std::vector<Taken> leave_a_way_on(const ConflictMap& map, std::span<const Holder> holders,
                                   std::span<const double> ahead_m, std::span<const Blocked> blocked,
                                   const GrantOrder& order) {
-  std::vector<Taken> taken;
-  for (const double end_m : ahead_m) {
-    taken.push_back({.ahead_m = end_m, .declines = false, .declined_for = {}, .kept_out_for = {}});
-  }
-  if (!order.puts_waiting_first || holders.size() > kMostVehicles) return taken;
-  const Reserved reserved = reserve(map, holders, ahead_m, blocked, order);
-  for (const std::size_t who : reserved.kept_out) {
-    taken[who].ahead_m = reserved.ahead_m[who];
-    taken[who].kept_out_for = reserved.vehicle;
-  }
-  std::vector<double> ends = reserved.ahead_m;
+  if (!order.puts_waiting_first || holders.size() > kMostVehicles) return all_of(ahead_m);
+  std::vector<Taken> taken = taken_outside_reserved(map, holders, ahead_m, blocked, order);
+  std::vector<double> ends;
+  std::ranges::transform(taken, std::back_inserter(ends), &Taken::ahead_m);
   std::vector<std::vector<double>> ends_m;
   std::vector<std::size_t> entering;
   for (std::size_t who = 0; who < holders.size(); ++who) {

@@ -152,7 +152,7 @@ TEST_F(AuthorityTest, StepsOfStandingAreCountedAndStartAgainWhenTheVehicleHasMov
 // use, in the very steps in which the other one gave back the road that neither of them used. So
 // the same one was granted it again and again, and four of ten cars stood for good.
 TEST_F(AuthorityTest, WhoGivesBackOnlyRoadOfItsLaneKeepsItsPlaceInTheQueue) {
-  for (std::uint64_t step = 1; step <= 3 * Authority::kPatience_steps; ++step) {
+  for (std::uint64_t step = 1; step <= std::uint64_t{3} * Authority::kPatience_steps; ++step) {
     begin_step(ring_.standing(1.0), step);
     EXPECT_EQ(authority_.claim().waiting_steps, step - 1);
     EXPECT_EQ(authority_.claim().ahead_m == 0.0, step % Authority::kPatience_steps == 1) << step;
