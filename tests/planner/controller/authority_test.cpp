@@ -15,6 +15,7 @@
 #include "planner/right_of_way/grant.hpp"
 #include "planner/scenario/starts.hpp"
 #include "tests/planner/automaton/paper_automaton.hpp"
+#include "tests/planner/controller/ring.hpp"
 #include "tests/planner/right_of_way/held_cells.hpp"
 #include "tests/planner/right_of_way/routes.hpp"
 #include "tests/support/num_seeds.hpp"
@@ -27,42 +28,6 @@ using coordination::Traffic;
 
 constexpr double kLookAhead_m = 1.0;
 constexpr double kReach_m = 2.0;
-
-const vehicle::VehicleParameters& car() { return automaton::paper_automaton()->vehicle; }
-
-/// A ring of 12.6 m and what vehicles on it plan.
-class Ring {
- public:
-  explicit Ring(const road::DrivableRoute& route = right_of_way::circle({0.0, 0.0}, 2.0),
-                double s_m = 0.0)
-      : tracker(std::make_shared<const std::vector<road::DrivableRoute>>(1, route)) {
-    tracker.select_route(pose_on(s_m), car().footprint);
-  }
-
-  [[nodiscard]] const road::ReferencePath& path() const { return tracker.route().path; }
-  [[nodiscard]] Pose pose_on(double s_m) const {
-    const Point point_m = path().at(s_m);
-    return {point_m.x(), point_m.y(), path().heading_rad_at(s_m)};
-  }
-  [[nodiscard]] static const automaton::Maneuver& edge(std::size_t from, std::size_t to) {
-    return *automaton::paper_automaton()->find({from}, {to}, from == to ? "trim" : "J2");
-  }
-  /// Standing at arc length s from step 1 on.
-  [[nodiscard]] coordination::Plan standing(double s_m) const {
-    return {{1}, pose_on(s_m), edge(0, 0)};
-  }
-  /// Standing there until step 3, then driving 0.32 m until step 6.
-  [[nodiscard]] coordination::Plan driving(double s_m) const {
-    return standing(s_m).continued({3}, {&edge(0, 6), &edge(6, 6), &edge(6, 0)});
-  }
-  [[nodiscard]] static Traffic other_at(std::uint8_t vehicle, double s_m, double ahead_m = 0.0) {
-    return {.vehicle = {vehicle}, .claim = LaneClaim{.place_m = s_m, .ahead_m = ahead_m}};
-  }
-
-  RouteTracker tracker;
-  std::shared_ptr<const right_of_way::ConflictMap> map{
-      std::make_shared<const right_of_way::ConflictMap>(tracker.routes(), car())};
-};
 
 class AuthorityTest : public testing::Test {
  protected:
@@ -181,45 +146,6 @@ TEST_F(AuthorityTest, WhoWasMovedHoldsItsNewPlaceOnly) {
   EXPECT_EQ(authority_.claim().ahead_m, 0.0);
 }
 
-/// So far before the crossing of the figure eight, half a lap from its begin.
-double before_crossing_m(double way_m) {
-  return 0.5 * right_of_way::figure_eight().path.length_m() - way_m;
-}
-
-TEST(AuthorityOnACrossing, RoadThatIsNotUsedIsGivenBackAndWaitedForAnew) {
-  const double s_m = before_crossing_m(0.5);
-  const Ring eight(right_of_way::figure_eight(), s_m);
-  Authority authority(eight.map);
-  const std::uint64_t last = 1 + Authority::kPatience_steps;
-  for (std::uint64_t step = 1; step <= last; ++step) {
-    authority.begin_step(eight.standing(s_m), {step}, eight.tracker, kReach_m);
-    EXPECT_EQ(authority.claim().waiting_steps, step == last ? 0 : step - 1);
-    EXPECT_EQ(authority.claim().ahead_m > 0.5, step > 1 && step < last) << step;
-    SharedStep shared;
-    authority.extend({1}, {}, {}, {}, 0.0, shared);
-  }
-  EXPECT_GT(authority.claim().ahead_m, 0.5) << "nobody else has taken it";
-}
-
-// Where it kept its road, a run of ten cars ended in a knot: one waited for 242 s.
-TEST(AuthorityOnACrossing, WhoStandsInAConflictCellGivesUnusedRoadBackToo) {
-  std::size_t num_conflicts = 0;
-  for (const double s_m : {0.02, 0.1, 1.0, 1.5}) {
-    const Ring eight(right_of_way::figure_eight(), s_m);
-    Authority authority(eight.map);
-    std::size_t num_given_back = 0;
-    for (std::uint64_t step = 1; step <= 2 + Authority::kPatience_steps; ++step) {
-      authority.begin_step(eight.standing(s_m), {step}, eight.tracker, kReach_m);
-      num_given_back += step > 1 && authority.claim().ahead_m < 0.1 ? 1U : 0U;
-      SharedStep shared;
-      authority.extend({1}, {}, {}, {}, 0.0, shared);
-    }
-    EXPECT_EQ(num_given_back, 1U) << s_m;
-    num_conflicts += eight.map->is_conflict(0, eight.map->index_of(0, eight.map->count_at(0, s_m)));
-  }
-  EXPECT_EQ(num_conflicts, 2U);
-}
-
 TEST_F(AuthorityTest, WhoHoldsNothingButItsPlaceKeepsItsPlaceInTheQueue) {
   static_assert(Authority::kPatience_steps < 75);
   for (std::uint64_t step = 1; step <= 75; ++step) {
@@ -277,34 +203,6 @@ TEST_F(AuthorityTest, OnlyWhoHoldsWhatIsWantedNextWithholdsIt) {
   extend({Ring::other_at(2, 1.0 + kLookAhead_m + car().footprint.length_m + 0.045)});
   EXPECT_NEAR(end_m(), 1.0 + kLookAhead_m, 0.04);
   EXPECT_TRUE(authority_.withheld_by().empty()) << "the next cell, which it holds, is too far away";
-}
-
-TEST(AuthorityOnACrossing, AMissingVehicleIsAssumedToTakeWhatItCanReach) {
-  struct Silence {
-    double step_m;
-    std::uint64_t until;  ///< from step 1 on; steps in between are skipped
-    bool takes;
-  };
-  for (const auto& [step_m, until, takes] :
-       {Silence{0.1, 2, true}, Silence{0.5, 2, false}, Silence{0.1, 6, false}}) {
-    const Ring at_zero(right_of_way::figure_eight());
-    const double length_m = at_zero.path().length_m();
-    const Ring eight(right_of_way::figure_eight(), length_m - 0.6);
-    const coordination::Plan plan = eight.standing(length_m - 0.6);
-    const Traffic other = Ring::other_at(2, length_m / 2.0 - 1.6);
-    const Traffic on_crossing = Ring::other_at(3, 0.0);
-    const Traffic beyond = Ring::other_at(3, 1.5);
-    Authority authority(eight.map);
-    SharedStep shared;
-    authority.begin_step(plan, {1}, eight.tracker, kReach_m);
-    const std::array received{&other, &on_crossing};
-    authority.receive(received);
-    authority.extend({1}, received, {}, {}, step_m, shared);
-    EXPECT_LT(authority.claim().ahead_m, 0.6);
-    authority.begin_step(plan, {until}, eight.tracker, kReach_m);
-    authority.extend({1}, std::array{&beyond}, std::array{other.vehicle}, {}, step_m, shared);
-    EXPECT_EQ(authority.claim().ahead_m > 0.6, takes) << step_m << ' ' << until;
-  }
 }
 
 /// The controller of vehicle 1 on the ring; vehicle 2 stands on it, far ahead.

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "planner/right_of_way/queues.hpp"
 #include "planner/right_of_way/way_on.hpp"
@@ -143,6 +145,73 @@ TEST(Reservation, NothingIsReservedForWhoHasJustStopped) {
     EXPECT_EQ(one.reserved.ahead_m, one.granted_m) << step;
     EXPECT_TRUE(one.reserved.kept_out.empty()) << step;
   }
+}
+
+/// Three cars of the figure eight: the first one waits before the crossing, the second one stands
+/// behind it in the cell in which the first one's stretch ends, and can drive on. The third one
+/// waits before the crossing, too, on the lane across.
+class AtACrossing : public testing::Test {
+ protected:
+  AtACrossing() {
+    const auto middle = static_cast<std::int64_t>(map_.num_cells(0)) / 2;
+    set_place(0, next_free(middle, -1));
+    set_place(1, next_free(middle, 1));
+    set_place(2, next_free(0, -1));
+    holders_[0].claim.waiting_steps = kFrom_steps;
+    holders_[2].claim.waiting_steps = 10;
+  }
+
+  /// The first cell in this direction that is no conflict cell.
+  [[nodiscard]] std::int64_t next_free(std::int64_t cell, std::int64_t direction) const {
+    while (map_.is_conflict(0, map_.index_of(0, cell))) cell += direction;
+    return cell;
+  }
+  void set_place(std::size_t who, std::int64_t cell) {
+    const auto index = static_cast<double>(map_.index_of(0, cell));
+    holders_[who].claim.place_m = index * map_.cell_m(0);
+  }
+  [[nodiscard]] std::vector<double> granted() const {
+    return grant(map_, holders_, blocked_, kLookAhead_m);
+  }
+  [[nodiscard]] std::vector<std::size_t> kept_out() const {
+    return reserve(map_, holders_, granted(), blocked_, kLongestWait).kept_out;
+  }
+
+  ConflictMap map_{std::vector{figure_eight()}, kCar};
+  std::vector<Holder> holders_{
+      {.vehicle = {1}, .claim = {}}, {.vehicle = {2}, .claim = {}}, {.vehicle = {3}, .claim = {}}};
+  std::vector<Blocked> blocked_;
+};
+
+TEST_F(AtACrossing, WhoCameLaterIsKeptOutUntilTheFirstOneHasStoodForLong) {
+  for (std::uint32_t step = 0; step < kUntil_steps + 20; ++step) {
+    holders_[0].claim.waiting_steps = std::max(11U, step);
+    ASSERT_EQ(granted()[0], 0.0);
+    ASSERT_GT(granted()[2], 0.0);
+    const bool is_reserved = step >= kFrom_steps && step < kUntil_steps;
+    EXPECT_EQ(kept_out(), is_reserved ? std::vector<std::size_t>{2} : std::vector<std::size_t>{})
+        << step;
+  }
+}
+
+TEST_F(AtACrossing, WhoHasWaitedLongerIsNotKeptOut) {
+  holders_[2].claim.waiting_steps = kFrom_steps + 1;
+  ASSERT_GT(granted()[2], 0.0);
+  EXPECT_TRUE(kept_out().empty());
+}
+
+TEST_F(AtACrossing, WhoIsOnItDrivesOn) {
+  set_place(2, next_free(0, -1) + 1);
+  ASSERT_GT(granted()[2], 0.0);
+  EXPECT_TRUE(kept_out().empty());
+}
+
+TEST_F(AtACrossing, NobodyIsKeptOutForOneWhoseWayCannotBecomeFree) {
+  const std::int64_t second = map_.count_at(0, holders_[1].claim.place_m);
+  blocked_.push_back({.vehicle = {}, .area_m = map_.area_m(0, map_.index_of(0, second + 1))});
+  ASSERT_EQ(granted()[1], 0.0);
+  ASSERT_GT(granted()[2], 0.0);
+  EXPECT_TRUE(kept_out().empty());
 }
 
 }  // namespace
